@@ -24,22 +24,23 @@ namespace {
 Fit FitOf(const Estimate& estimate, const LogSamples& m) {
   Fit fit;
   fit.identifier = estimate.identifier;
-  fit.friction = *estimate.friction;
-  fit.gravity = estimate.gravity;
+  fit.model.friction = *estimate.friction;
+  fit.model.gravity = estimate.gravity;
 
   // the rows that a fit of that law would have, of which that of the load needs a load
-  std::vector<double> values = LawValues(fit.friction);
+  std::vector<double> values = LawValues(fit.model.friction);
   const bool carries = m.load || estimate.gravity;
-  if (carries && estimate.Find(NameOf(Role::load))) values.push_back(fit.friction.load_gain);
+  if (carries && estimate.Find(NameOf(Role::load))) values.push_back(fit.model.friction.load_gain);
   const Eigen::Map<const Eigen::VectorXd> law(values.data(), std::ssize(values));
-  fit.parameters = WithValues(LawUnknowns(*FindLaw(fit.friction.law), law.size(), UnitsOf(m)), law);
+  fit.parameters =
+      WithValues(LawUnknowns(*FindLaw(fit.model.friction.law), law.size(), UnitsOf(m)), law);
 
   // heat and start, where the estimate has them
-  if (fit.friction.thermal && Find(Role::gain, estimate)) {
-    Append(HeatParameters(*fit.friction.thermal, m), fit);
+  if (fit.model.friction.thermal && Find(Role::gain, estimate)) {
+    Append(HeatParameters(*fit.model.friction.thermal, m), fit);
   }
   if (const EstimatedParameter* start = Find(Role::start, estimate)) {
-    fit.initial_energy = start->value;
+    fit.start.energy = start->value;
     fit.parameters.push_back(WithValue(StartUnknown(UnitsOf(m)), start->value));
   }
   return fit;

@@ -28,12 +28,13 @@ double RootMeanSquare(const Eigen::VectorXd& x) {
 
 /// F at the kept samples: the fitted torque less gravity and inertia, which make no heat. [n]
 Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
-  Eigen::VectorXd force = fit.fitted;
-  if (fit.gravity) force -= Kept(fit.gravity->Torque(m.position), fit.used);
-  if (fit.inertia && m.acceleration) force -= *fit.inertia * Kept(*m.acceleration, fit.used);
-  if (fit.inertia_torque.size() > 0) force -= Kept(fit.inertia_torque, fit.used);
-  if (fit.torque_lag) force -= Kept(fit.torque_lag->adds, fit.used);
-  if (fit.fields) force -= Kept(fit.fields->rest, fit.used);
+  Eigen::VectorXd force = fit.rows.fitted;
+  if (fit.model.gravity) force -= Kept(fit.model.gravity->Torque(m.position), fit.rows.used);
+  if (fit.model.inertia && m.acceleration)
+    force -= *fit.model.inertia * Kept(*m.acceleration, fit.rows.used);
+  if (fit.rows.inertia_torque.size() > 0) force -= Kept(fit.rows.inertia_torque, fit.rows.used);
+  if (fit.model.lag) force -= Kept(fit.rows.by_lag, fit.rows.used);
+  if (fit.figures.fields) force -= Kept(fit.figures.fields->rest, fit.rows.used);
   return force;
 }
 
@@ -58,7 +59,7 @@ bool LeavesTooMuch(double left, double friction, double others) {
 
 std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Inference& by_noise,
                                 double relevance) {
-  const auto used = static_cast<double>(fit.torque.size());
+  const auto used = static_cast<double>(fit.rows.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
     return Floor(Source::few_samples, Status::not_identifiable,
@@ -67,17 +68,17 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   }
   const Eigen::VectorXd along = FrictionIn(fit, m);
   const double friction = RootMeanSquare(along);
-  const double share = friction / RootMeanSquare(fit.torque);
+  const double share = friction / RootMeanSquare(fit.rows.torque);
   if (share < kNoFriction) {
     return Floor(Source::no_friction, Status::inadequate_model, ExplainNoFriction(share));
   }
-  if (fit.fields && fit.fields->time_torque > kMostTorqueOverTime) {
+  if (fit.figures.fields && fit.figures.fields->time_torque > kMostTorqueOverTime) {
     return Floor(Source::impossible, Status::inadequate_model,
-                 ExplainTorqueOverTime(fit.fields->time_torque));
+                 ExplainTorqueOverTime(fit.figures.fields->time_torque));
   }
-  if (fit.fields && fit.fields->time_friction > kMostDrift) {
+  if (fit.figures.fields && fit.figures.fields->time_friction > kMostDrift) {
     return Floor(Source::impossible, Status::inadequate_model,
-                 ExplainDriftOfFriction(fit.fields->time_friction, kMostDrift));
+                 ExplainDriftOfFriction(fit.figures.fields->time_friction, kMostDrift));
   }
   // an inertia below 0 that was taken out, without which the friction is another
   const auto inertia = std::ranges::find(fit.causes, Source::findings, &Cause::source);
@@ -89,21 +90,22 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   }
 
   // how much of the torque is explained, and how large the residual is relative to the friction
-  const double left = fit.residual().squaredNorm();
-  const double by_mean = (fit.torque.array() - fit.torque.mean()).square().sum();
+  const double left = fit.rows.residual().squaredNorm();
+  const double by_mean = (fit.rows.torque.array() - fit.rows.torque.mean()).square().sum();
   const double explained = 100 * (1 - std::sqrt(left / by_mean));
   if (left - by_mean > kWorse * by_noise.uncertainty.noise.variance_inflation * left / used) {
     return Floor(Source::worse_than_mean, Status::inadequate_model,
                  ExplainWorseThanMean(explained, fit));
   }
-  const Eigen::VectorXd velocity = Kept(m.velocity, fit.used);
+  const Eigen::VectorXd velocity = Kept(m.velocity, fit.rows.used);
   const bool both = velocity.minCoeff() < 0 && velocity.maxCoeff() > 0;
   if (both && explained < kLeastFit) {
     return Floor(Source::worse_than_mean, Status::inadequate_model,
                  ExplainPoorFit(explained, kLeastFit, fit));
   }
   const double beside = std::sqrt(left / used);
-  if (!LeavesTooMuch(beside, friction, RootMeanSquare(fit.fitted - along))) return std::nullopt;
+  if (!LeavesTooMuch(beside, friction, RootMeanSquare(fit.rows.fitted - along)))
+    return std::nullopt;
   return Floor(Source::worse_than_mean, Status::inadequate_model,
                ExplainMuchLeft(beside, friction, fit));
 }

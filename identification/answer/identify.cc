@@ -44,7 +44,7 @@ const Unknown* SlopeOf(const Fit& fit) {
 
 /// Whether maps have a slope over speed: those over speed, and those that are multiplied by it.
 bool MapsSlope(const Fit& fit) {
-  return std::ranges::any_of(fit.friction.maps, [](const FrictionMap& map) {
+  return std::ranges::any_of(fit.model.friction.maps, [](const FrictionMap& map) {
     return FindAxis(map, MapQuantity::velocity) || map.factor == MapFactor::velocity;
   });
 }
@@ -149,9 +149,10 @@ SettledFit FitSettled(const Identifier& identifier, const IdentifierInput& input
   for (int round = 0; round < kMostRounds && !settled.fit.refusal; ++round) {
     const Fit& fit = settled.fit;
     // a view that is not the input's has other samples, and rows of means have none of their own
-    const bool same = fit.used.keep.size() == time.size() && fit.torque.size() == fit.used.count();
+    const bool same =
+        fit.rows.used.keep.size() == time.size() && fit.rows.torque.size() == fit.rows.used.count();
     if (input.view != View::constant_speed || !same) break;
-    const Settling found = SettlingTime(fit.used, time, fit.residual());
+    const Settling found = SettlingTime(fit.rows.used, time, fit.rows.residual());
     if (found.both() == 0) break;
     // structure that takes longer is something else, which the tests for lack of fit look for
     if (!MaySettle(settled.settling + found, input.selection, time)) {
@@ -176,7 +177,7 @@ Cause SettlingCause(const SettledFit& settled) {
   Cause cause = OfTheLog(Source::preparation, ExplainSettling(longest));
   const std::vector<Unknown>& rows = settled.fit.parameters;
   const bool alike = settled.sooner && !settled.sooner->refusal && !settled.fit.refusal &&
-                     settled.sooner->friction.law == settled.fit.friction.law &&
+                     settled.sooner->model.friction.law == settled.fit.model.friction.law &&
                      settled.sooner->parameters.size() == rows.size();
   if (!alike) return cause;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -196,7 +197,7 @@ std::optional<Cause> DelayCause(const Identifier& identifier, const IdentifierIn
   if (fit.choice) return {};
   Structure asked{identifier};
   asked.identifier.options = input.options;
-  if (fit.torque_delay || asked.CanEstimateDelay()) return {};
+  if (fit.model.delay || asked.CanEstimateDelay()) return {};
   const auto late = FindLateTorque(input);
   if (!late) return {};
   const bool refuses = late->harm > kHarmfulDelay;

@@ -105,16 +105,17 @@ VectorXd ColdDerivatives(const Fit& fit, double speed, double load = 0) {
 /// The figures of a fit that has them already, since its table has only the law.
 std::vector<SpeedFigure> OfItsOwn(const Fit& fit, const LogSamples& m) {
   std::vector<SpeedFigure> all;
-  for (const FrictionAtSpeed& one : fit.friction_at_speeds) {
-    VectorXd derivatives =
-        fit.fields ? fit.fields->at_speeds_by_rows[all.size()] : ColdDerivatives(fit, one.speed);
+  for (const FrictionAtSpeed& one : fit.figures.friction_at_speeds) {
+    VectorXd derivatives = fit.figures.fields ? fit.figures.fields->at_speeds_by_rows[all.size()]
+                                              : ColdDerivatives(fit, one.speed);
     SpeedFigure& figure = all.emplace_back(SpeedFigure{one, std::move(derivatives)});
     figure.at.speed_unit = kVelocityUnit.For(m.joint);
     figure.at.unit = m.torque_unit;
-    if (fit.friction.thermal && !figure.at.energy) figure.at.energy = 0;
-    figure.parts = fit.fields
-                       ? FieldParts(fit.fields->at_speeds_up_to[all.size() - 1], figure.HalfWidth())
-                       : std::vector<WidthPart>{{Source::noise, figure.HalfWidth()}};
+    if (fit.model.friction.thermal && !figure.at.energy) figure.at.energy = 0;
+    figure.parts =
+        fit.figures.fields
+            ? FieldParts(fit.figures.fields->at_speeds_up_to[all.size() - 1], figure.HalfWidth())
+            : std::vector<WidthPart>{{Source::noise, figure.HalfWidth()}};
   }
   return all;
 }
@@ -126,21 +127,21 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
                                         const LogSamples& m, const Selection& selection) {
   if (inferred.status != Status::ok || !inferred.gives_friction) return {};
   if (DropIntervals(inferred.causes)) return {};
-  if (!fit.friction.maps.empty() || fit.fields) return OfItsOwn(fit, m);
+  if (!fit.model.friction.maps.empty() || fit.figures.fields) return OfItsOwn(fit, m);
 
   // cold, then warm
   std::optional<WarmMoment> warmest;
   if (model) warmest = WarmestOf(fit, *model, m);
-  const Law& law = *FindLaw(fit.friction.law);
-  const std::vector<double> values = LawValues(fit.friction);
-  const std::optional<double> cold = fit.friction.thermal ? std::optional(0.0) : std::nullopt;
+  const Law& law = *FindLaw(fit.model.friction.law);
+  const std::vector<double> values = LawValues(fit.model.friction);
+  const std::optional<double> cold = fit.model.friction.thermal ? std::optional(0.0) : std::nullopt;
   std::vector<SpeedFigure> all;
   const auto add = [&](std::optional<SpeedFigure> figure) {
     if (figure) all.push_back(*std::move(figure));
   };
   const std::vector<SpeedGroup> groups = TypicalSpeeds(Kept(m.velocity, selection));
   const auto resistance = [&](double v, double load) {
-    return Sign(v) * law.force(v, values.data()) + fit.friction.load_gain * load;
+    return Sign(v) * law.force(v, values.data()) + fit.model.friction.load_gain * load;
   };
   const std::vector<double> loads =
       MeanLoads(groups, fit.RowOf(Role::load) ? Kept(*m.load, selection) : VectorXd());
@@ -157,7 +158,7 @@ std::vector<SpeedFigure> SpeedFiguresOf(const Fit& fit, const Inference& inferre
 }
 
 void NameOneSpeed(const LogSamples& m, const Selection& selection, Fit& fit) {
-  if (fit.refusal || !fit.friction.maps.empty()) return;
+  if (fit.refusal || !fit.model.friction.maps.empty()) return;
   // a law of levels alone, for which all speeds are one
   const auto is_of_law = [](const Unknown& row) { return row.role == Role::law; };
   const bool is_level = std::ranges::all_of(fit.parameters, [&](const Unknown& row) {

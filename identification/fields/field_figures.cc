@@ -131,7 +131,7 @@ FieldFigures::FieldFigures(const SolvedFields& solved, const Fit& fit, const Log
                                [=](const Unknown& row) { return row.part == part; });
   };
   VectorXd slope = VectorXd::Zero(means_.size()), level = means_;
-  const bool warms = fit.friction.thermal.has_value();  // by the loss of its best line
+  const bool warms = fit.model.friction.thermal.has_value();  // by the loss of its best line
   if (!warms && has(LawPart::slope) && has(LawPart::level) && fast > kOneSpeed * slow) {
     const VectorXd at_slow = OfFields(slow);
     slope = (OfFields(fast) - at_slow) / (fast - slow);
@@ -206,7 +206,7 @@ VectorXd FieldFigures::OfFields(double speed) const {
 
 VectorXd FieldFigures::AtVelocity(double velocity, double load) const {
   VectorXd function = OfFields(std::abs(velocity));
-  const Law& law = *FindLaw(fit_.friction.law);
+  const Law& law = *FindLaw(fit_.model.friction.law);
   const MatrixXd of_law = Sign(velocity) * LawColumns(law, VectorXd::Constant(1, velocity));
   Index column = 0, of = 0;
   for (const Unknown& row : fit_.parameters) {
@@ -277,7 +277,7 @@ Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual, double effecti
   for (const auto& [by, covariance] : up_to_) {
     uncertainty.up_to.push_back({by, report_ * covariance * report_.transpose()});
   }
-  uncertainty.noise = FitNoise(residual, fit_.used);
+  uncertainty.noise = FitNoise(residual, fit_.rows.used);
   const double correlation = solved_.evidence.LeftCorrelation(solved_.best, solved_.posterior.mean);
   uncertainty.degrees_of_freedom =
       std::max(1.0, static_cast<double>(solved_.rows.size()) / correlation - effective);
@@ -286,8 +286,8 @@ Uncertainty FieldFigures::UncertaintyOf(const VectorXd& residual, double effecti
 
 void FieldFigures::AddMap(FrictionMap map, const MatrixXd& functions, double reach,
                           Fit& fit) const {
-  const auto law = static_cast<Index>(FindLaw(fit.friction.law)->parameters.size());
-  MapBand& band = fit.bands.emplace_back();
+  const auto law = static_cast<Index>(FindLaw(fit.model.friction.law)->parameters.size());
+  MapBand& band = fit.figures.bands.emplace_back();
   band.quantities.emplace_back(NameOf(map.axes[0].quantity));
   for (Index g = 0; g < functions.rows(); ++g) {
     const VectorXd function = functions.row(g);
@@ -297,8 +297,8 @@ void FieldFigures::AddMap(FrictionMap map, const MatrixXd& functions, double rea
     band.std.push_back(deviation);
     band.interval95.push_back({value - reach * deviation, value + reach * deviation});
   }
-  fit.bands_by_law.push_back(functions.leftCols(law));
-  fit.friction.maps.push_back(std::move(map));
+  fit.figures.bands_by_law.push_back(functions.leftCols(law));
+  fit.model.friction.maps.push_back(std::move(map));
 }
 
 void FieldFigures::AddTo(double degrees_of_freedom, Fit& fit) const {
@@ -309,17 +309,17 @@ void FieldFigures::AddTo(double degrees_of_freedom, Fit& fit) const {
 }
 
 std::optional<FieldFigures::WarmMoment> FieldFigures::Warmest(const Fit& fit) const {
-  if (!fit.friction.thermal) return std::nullopt;
-  const VectorXd energy = PredictFriction(fit.friction, m_, fit.Start()).energy;
+  if (!fit.model.friction.thermal) return std::nullopt;
+  const VectorXd energy = PredictFriction(fit.model.friction, m_, fit.Start()).energy;
   Index warmest = -1;
   for (Index i = 0; i < m_.size(); ++i) {
-    if (!fit.used.keep[i]) continue;
+    if (!fit.rows.used.keep[i]) continue;
     if (warmest < 0 || std::abs(energy[i]) > std::abs(energy[warmest])) warmest = i;
   }
 
   // F = Fn + sign(v) E: what the heat adds to the derivatives of Fn
-  const VectorXd along = fit_.jacobian().row(warmest);
-  MatrixXd cold = LawColumns(*FindLaw(fit.friction.law), m_.velocity.segment(warmest, 1));
+  const VectorXd along = fit_.rows.jacobian().row(warmest);
+  MatrixXd cold = LawColumns(*FindLaw(fit.model.friction.law), m_.velocity.segment(warmest, 1));
   const PartFit grows = fit.RowOf(Role::load) ? PartFit::estimated : PartFit::none;
   cold = WithLoad(std::move(cold), grows, m_.velocity.segment(warmest, 1),
                   m_.load ? std::optional<VectorXd>(m_.load->segment(warmest, 1)) : std::nullopt);
@@ -338,24 +338,24 @@ std::optional<FieldFigures::WarmMoment> FieldFigures::Warmest(const Fit& fit) co
 }
 
 void FieldFigures::AddFriction(double reach, Fit& fit) const {
-  const VectorXd kept = Kept(m_.velocity, fit.used);
+  const VectorXd kept = Kept(m_.velocity, fit.rows.used);
   const std::vector<SpeedGroup> groups = TypicalSpeeds(kept);
   const bool loads = fit.RowOf(Role::load).has_value();
   const std::vector<double> carried =
-      MeanLoads(groups, loads ? Kept(*m_.load, fit.used) : VectorXd());
+      MeanLoads(groups, loads ? Kept(*m_.load, fit.rows.used) : VectorXd());
   const auto add = [&](double velocity, const VectorXd& function, std::optional<double> energy,
                        const VectorXd& by_heat) {
     // the heat is no linear function of the unknowns: its value is its own
     const double value = function.dot(solved_.posterior.mean) + energy.value_or(0);
     const double deviation = Deviation(function + by_heat);
-    fit.friction_at_speeds.push_back(
+    fit.figures.friction_at_speeds.push_back(
         {.speed = velocity,
          .value = value,
          .std = deviation,
          .interval95 = {value - reach * deviation, value + reach * deviation},
          .energy = energy});
-    fit.fields->at_speeds_by_rows.push_back(ByRows(function + by_heat, fit));
-    std::vector<ErrorUpTo<double>>& up_to = fit.fields->at_speeds_up_to.emplace_back();
+    fit.figures.fields->at_speeds_by_rows.push_back(ByRows(function + by_heat, fit));
+    std::vector<ErrorUpTo<double>>& up_to = fit.figures.fields->at_speeds_up_to.emplace_back();
     for (const auto& [by, covariance] : up_to_) {
       const VectorXd all = function + by_heat;
       up_to.push_back({by, std::sqrt(std::max(all.dot(covariance * all), 0.0))});
@@ -386,7 +386,7 @@ bool FieldFigures::HasConstant(size_t place_torque) const {
 
 void FieldFigures::AddPlaces(double reach, Fit& fit) const {
   // as bands, friction at the median speed, or the torque alone
-  const double median = MedianOf(Kept(m_.velocity, fit.used).cwiseAbs());
+  const double median = MedianOf(Kept(m_.velocity, fit.rows.used).cwiseAbs());
   for (size_t k = 0; k < solved_.blocks.size(); ++k) {
     const FieldBlock& block = solved_.blocks[k];
     const Index begin = solved_.evidence.Begin(k), p = report_.rows();
@@ -413,7 +413,7 @@ void FieldFigures::AddPlaces(double reach, Fit& fit) const {
 }
 
 void FieldFigures::AddCurve(double reach, Fit& fit) const {
-  const VectorXd speeds = Kept(m_.velocity, fit.used).cwiseAbs();
+  const VectorXd speeds = Kept(m_.velocity, fit.rows.used).cwiseAbs();
   FrictionMap map{.axes = {{MapQuantity::velocity,
                             SpeedAxis(speeds.minCoeff(), speeds.maxCoeff(), kSpeedCentres)}},
                   .weights = {}};
@@ -421,13 +421,13 @@ void FieldFigures::AddCurve(double reach, Fit& fit) const {
   axis.width *= kNarrow;
   MatrixXd functions(std::ssize(axis.centres), solved_.evidence.size());
   VectorXd values(functions.rows());
-  const std::vector<double> law = LawValues(fit.friction);
+  const std::vector<double> law = LawValues(fit.model.friction);
   for (Index g = 0; g < functions.rows(); ++g) {
     const double v = axis.centres[static_cast<size_t>(g)];
     functions.row(g) = Sign(v) * AtVelocity(v, 0);
     // beyond the law as it is reported
     values[g] = functions.row(g).dot(solved_.posterior.mean) -
-                FindLaw(fit.friction.law)->force(v, law.data());
+                FindLaw(fit.model.friction.law)->force(v, law.data());
   }
   map.weights = WeightsFor(axis, values);
   AddMap(std::move(map), functions, reach, fit);

@@ -88,18 +88,18 @@ VectorXd UnknownsOf(const Fit& fit) {
 
 FieldRows MakeFieldRows(const Fit& fit, const LogSamples& m, const MatrixXd& others,
                         const VectorXd& left_out) {
-  const std::vector<Group> groups = GroupsOf(fit.used, m);
-  const MatrixXd jacobian = Kept(fit.jacobian(), fit.used);
+  const std::vector<Group> groups = GroupsOf(fit.rows.used, m);
+  const MatrixXd jacobian = Kept(fit.rows.jacobian(), fit.rows.used);
   const auto mean = [&](const VectorXd& all) {
-    return VectorXd(Means(Kept(all, fit.used), groups));
+    return VectorXd(Means(Kept(all, fit.rows.used), groups));
   };
   FieldRows rows;
   rows.time = mean(m.time);
   rows.position = mean(m.position);
   rows.velocity = mean(m.velocity);
-  rows.flat = Means(ConcatColumns(jacobian, Kept(others, fit.used)), groups);
-  rows.torque =
-      Means(fit.residual() + jacobian * UnknownsOf(fit) + Kept(left_out, fit.used), groups);
+  rows.flat = Means(ConcatColumns(jacobian, Kept(others, fit.rows.used)), groups);
+  rows.torque = Means(
+      fit.rows.residual() + jacobian * UnknownsOf(fit) + Kept(left_out, fit.rows.used), groups);
   const SampleMask moving = InMotion(m.velocity);
   rows.motion = {Chosen(m.time, moving), Chosen(m.position, moving), Chosen(m.velocity, moving)};
   if (m.temperature) {

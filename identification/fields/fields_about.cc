@@ -30,35 +30,35 @@ constexpr Index kFewestRows = 60;  // why: fewer do not show how noise is correl
 
 /// Columns that stand in a fit with fields alone: a constant torque, which a field over the place has as its mean.
 MatrixXd ConstantOf(const Fit& fit, const Law& law, const LogSamples& m) {
-  const bool constant = fit.gravity && fit.gravity->kind != GravityKind::sincos;
-  const bool has = !constant && IsSymmetric(law) && OnlyWay(Kept(m.velocity, fit.used)) == 0;
+  const bool constant = fit.model.gravity && fit.model.gravity->kind != GravityKind::sincos;
+  const bool has = !constant && IsSymmetric(law) && OnlyWay(Kept(m.velocity, fit.rows.used)) == 0;
   return MatrixXd::Ones(m.size(), has ? 1 : 0);
 }
 
 /// Whether the joint's temperature was logged and changed.
 bool GetsWarmer(const Fit& fit, const LogSamples& m) {
   if (!m.temperature || !m.temperature->allFinite()) return false;
-  const VectorXd temperature = Kept(*m.temperature, fit.used);
+  const VectorXd temperature = Kept(*m.temperature, fit.rows.used);
   return temperature.maxCoeff() - temperature.minCoeff() > kWarmer;
 }
 
 /// The fields that a log can have: over the place where gravity has not every place, over place and speed where these vary.
 std::vector<FieldKind> Possible(const FieldSet& asked, const Fit& fit, const LogSamples& m) {
-  const VectorXd position = Kept(m.position, fit.used);
-  const VectorXd speed = Kept(m.velocity, fit.used).cwiseAbs();
+  const VectorXd position = Kept(m.position, fit.rows.used);
+  const VectorXd speed = Kept(m.velocity, fit.rows.used).cwiseAbs();
   const bool travels = position.maxCoeff() > position.minCoeff() && !m.position_integrated;
   std::vector<FieldKind> kinds;
   for (const FieldKind kind : asked.kinds) {
     const bool over_place = kind == FieldKind::place_torque || kind == FieldKind::place_friction;
     if (over_place && !travels) continue;
-    if (kind == FieldKind::place_torque && fit.gravity &&
-        fit.gravity->kind == GravityKind::paired) {
+    if (kind == FieldKind::place_torque && fit.model.gravity &&
+        fit.model.gravity->kind == GravityKind::paired) {
       continue;
     }
     // of a drift beside a warming no likelihood decides (the tests for lack of fit do); a temperature is its rival
     const bool changes =
         kind == FieldKind::time_friction || kind == FieldKind::temperature_friction;
-    if (changes && fit.friction.thermal) continue;
+    if (changes && fit.model.friction.thermal) continue;
     if (kind == FieldKind::temperature_friction && !GetsWarmer(fit, m)) continue;
     if (kind == FieldKind::speed_friction && !(speed.maxCoeff() > speed.minCoeff())) continue;
     kinds.push_back(kind);
@@ -142,7 +142,7 @@ void Condition(const std::vector<Index>& columns, const MatrixXd& report, const 
 
 /// Whether a fit is linear in its unknowns.
 bool IsLinear(const Fit& fit) {
-  return !fit.friction.thermal && !fit.RowOf(Role::load) && !fit.RowOf(Role::delay);
+  return !fit.model.friction.thermal && !fit.RowOf(Role::load) && !fit.RowOf(Role::delay);
 }
 
 constexpr int kMostRounds = 4;
@@ -173,7 +173,7 @@ std::unique_ptr<Round> Solve(FitForFields at, const FieldSet& asked, const Vecto
   round->at = std::move(at);
   const Fit& fit = round->at.fit;
   const LogSamples& m = round->at.motion;
-  const Law& law = *FindLaw(fit.friction.law);
+  const Law& law = *FindLaw(fit.model.friction.law);
   round->rows = MakeFieldRows(fit, m, ConstantOf(fit, law, m), left_out);
   round->rows.prior_mean = round->at.prior_mean;
   round->rows.prior_precision = round->at.prior_precision;
@@ -192,7 +192,7 @@ VectorXd TorqueAt(const Round& round, const SolvedFields& solved) {
   const FitForFields& at = round.at;
   const VectorXd x = UnknownsOf(at.fit);
   return at.torque_of(at.fit, at.motion) +
-         at.fit.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
+         at.fit.rows.jacobian() * (solved.posterior.mean.head(x.size()) - x) +
          FieldsAlong(solved, x.size(), at.motion);
 }
 
@@ -203,19 +203,20 @@ Fit Conclude(const Round& round) {
   SolvedFields solved = round.solved();
   const FieldFigures figures(solved, round.at.fit, m);
   VectorXd torque = TorqueAt(round, solved);
-  fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = Kept(torque, fit.used);
-  fit.effective_parameters = round.evidence->EffectiveParameters(round.best);
-  const Uncertainty uncertainty = figures.UncertaintyOf(fit.residual(), fit.effective_parameters);
+  fit.rows.torque = Kept(m.torque, fit.rows.used);
+  fit.rows.fitted = Kept(torque, fit.rows.used);
+  fit.rows.effective_parameters = round.evidence->EffectiveParameters(round.best);
+  const Uncertainty uncertainty =
+      figures.UncertaintyOf(fit.rows.residual(), fit.rows.effective_parameters);
   HoldAt(figures.Reported(), {}, fit);
-  fit.end_energy = nullptr;
-  fit.errors = {};
-  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  fit.figures.end_energy = nullptr;
+  fit.rows.errors = {};
+  fit.rows.errors.covariance = [uncertainty] { return uncertainty; };
   // what noise puts beyond the bounds of the law
   if (auto left = FindLeftByNoise(fit, ByNoise(fit))) {
     Condition(left->columns, figures.report(), fit, solved.posterior);
     torque = TorqueAt(round, solved);
-    fit.fitted = Kept(torque, fit.used);
+    fit.rows.fitted = Kept(torque, fit.rows.used);
     Cause held = HoldAt(figures.Reported(), left->columns, fit);
     held.sentence = std::move(left->sentence);
     fit.causes.push_back(std::move(held));
@@ -227,22 +228,24 @@ Fit Conclude(const Round& round) {
     fit.causes.push_back(Note(kFrictionFalls));
   }
   const double cost = round.evidence->Cost(round.best);
-  fit.fields = FittedFields{.cost = CostOf(round.at.fit, round.rows, round.friction, cost),
-                            .time_torque = AmplitudeOf(FieldKind::time_torque, solved),
-                            .time_friction = DriftOf(solved, round.friction)};
-  for (const FieldBlock& block : round.blocks) fit.fields->present.kinds.push_back(block.kind);
+  fit.figures.fields = FittedFields{.cost = CostOf(round.at.fit, round.rows, round.friction, cost),
+                                    .time_torque = AmplitudeOf(FieldKind::time_torque, solved),
+                                    .time_friction = DriftOf(solved, round.friction)};
+  for (const FieldBlock& block : round.blocks)
+    fit.figures.fields->present.kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
-  fit.fields->rest = torque - round.at.torque_of(fit, m);
-  fit.count += static_cast<int>(round.evidence->size() - UnknownsOf(fit).size());
+  fit.figures.fields->rest = torque - round.at.torque_of(fit, m);
+  fit.rows.count += static_cast<int>(round.evidence->size() - UnknownsOf(fit).size());
   // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
-  const VectorXd left_out = Kept(VectorXd(fit.fields->rest - DriftAlong(solved, m)), fit.used);
+  const VectorXd left_out =
+      Kept(VectorXd(fit.figures.fields->rest - DriftAlong(solved, m)), fit.rows.used);
   const std::vector<FieldShare> shares = figures.Shares(round.friction);
   fit.summary += SummaryOfFields(shares, left_out.cwiseAbs().maxCoeff() / round.friction);
   if (const auto slope = ByTemperature(solved)) {
     fit.causes.push_back(Note(ExplainTemperature(*slope, m.torque_unit)));
   }
   if (std::ranges::count(shares, FieldKind::time_friction, &FieldShare::kind) > 0) {
-    fit.causes.push_back(Note(ExplainMeansOverLog(fit.fields->time_friction)));
+    fit.causes.push_back(Note(ExplainMeansOverLog(fit.figures.fields->time_friction)));
   }
   return fit;
 }

@@ -20,19 +20,20 @@ using Eigen::VectorXd;
 
 /// Why a fit has no fields, where it could not have any; empty where nothing is left for them.
 std::optional<std::string> WhyNone(const Fit& fit) {
-  if (!fit.friction.maps.empty()) return kNoFieldsBesideMaps;
-  if (fit.torque_lag || fit.loss_bend) return kNoFieldsBesideLag;
-  if (IsRounding(fit.residual().squaredNorm(), fit.torque)) return "";
-  if (!fit.jacobian || fit.errors.covariance) return kNoFieldsBesideCovariance;
+  if (!fit.model.friction.maps.empty()) return kNoFieldsBesideMaps;
+  if (fit.model.lag || fit.rows.loss_bend) return kNoFieldsBesideLag;
+  if (IsRounding(fit.rows.residual().squaredNorm(), fit.rows.torque)) return "";
+  if (!fit.rows.jacobian || fit.rows.errors.covariance) return kNoFieldsBesideCovariance;
   return std::nullopt;
 }
 
 /// What a fit knew beforehand: its prior has the noise's variance over that of each unknown, about 0 but for E(0).
 void TakePrior(double start, FitForFields& at) {
   const Fit& fit = at.fit;
-  const Eigen::MatrixXd& prior = fit.errors.prior;
+  const Eigen::MatrixXd& prior = fit.rows.errors.prior;
   if (prior.size() == 0) return;
-  const double variance = fit.residual().squaredNorm() / static_cast<double>(fit.torque.size());
+  const double variance =
+      fit.rows.residual().squaredNorm() / static_cast<double>(fit.rows.torque.size());
   at.prior_precision = prior / variance;
   at.prior_mean = VectorXd::Zero(prior.rows());
   Index column = 0;
@@ -45,7 +46,7 @@ void TakePrior(double start, FitForFields& at) {
 
 /// A fit as fields are fitted about it.
 FitForFields ForFields(Fit fit, const IdentifierInput& input) {
-  auto followed = Followed(input.measurements, fit.used, PartsOf(fit));
+  auto followed = Followed(input.measurements, fit.rows.used, PartsOf(fit));
   FitForFields at{.fit = std::move(fit),
                   .motion = followed ? std::move(followed->measurements) : input.measurements};
   TakePrior(InitialEnergyOf(input.options).mean, at);

@@ -16,14 +16,14 @@ std::vector<double> Fit::Values(Role role) const {
 }
 
 ThermalStart Fit::Start() const {
-  ThermalStart start;
-  start.energy = initial_energy;
+  ThermalStart begin;
+  begin.energy = start.energy;
   // each jump at the sample where it happens
   const std::vector<double> jumps = Values(Role::jump);
-  for (size_t i = 0; i < jump_samples.size(); ++i) {
-    start.jumps.push_back({jump_samples[i], jumps[i]});
+  for (size_t i = 0; i < start.jump_samples.size(); ++i) {
+    begin.jumps.push_back({start.jump_samples[i], jumps[i]});
   }
-  return start;
+  return begin;
 }
 
 std::optional<size_t> Fit::RowOf(Role role, int which) const {
@@ -39,8 +39,8 @@ void ErrorModel::AddFree() {
 }
 
 Eigen::MatrixXd CofactorOf(const Fit& fit) {
-  const ErrorModel& errors = fit.errors;
-  Eigen::MatrixXd rows = Kept(fit.jacobian(), fit.used);
+  const ErrorModel& errors = fit.rows.errors;
+  Eigen::MatrixXd rows = Kept(fit.rows.jacobian(), fit.rows.used);
   if (errors.whitening) rows = errors.whitening->Of(rows);
   Eigen::MatrixXd normal = GramOf(rows);
   if (errors.prior.size() > 0) normal += errors.prior;

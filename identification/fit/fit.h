@@ -50,10 +50,23 @@ struct Iterate {
   std::optional<double> energy{};
 };
 
-/// A first-order lag of the torque's way into the log.
-struct FittedLag {
-  double time_constant = 0;  // s
-  Eigen::VectorXd adds;      // [N] to F + G at the kept samples, N.m or N; 0 elsewhere
+/// The torque of a joint: F + G + M a, Eqs. (5) and (20).
+struct TorqueModel {
+  Friction friction;  // law, warming and maps, whatever their bounds
+  std::optional<GravityModel> gravity;
+  std::optional<double> inertia;  // torque over acceleration, kg.m^2 or kg
+  std::optional<double> lag{};    // s, of the torque's way into the log, first order
+  /// s, by which the torque is late relative to the motion: the model follows the motion at t less that (Delayed).
+  std::optional<double> delay{};
+};
+
+/// With what a log began.
+struct FittedStart {
+  double energy = 0;  // E(0), N.m or N
+  /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
+  /// estimated; else empty.
+  std::vector<double> friction;
+  std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
 };
 
 /// What fields of a fit hold beside its law and its maps (fields/fit_fields.h).
@@ -66,9 +79,8 @@ struct FittedFields {
   Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
   /// -2 log of the marginal likelihood, of the same rows and fields with any table: the least is the likeliest
   double cost = 0;
-  double time_torque = 0;  // amplitude of the torque over time, a share of the friction
-  double time_friction =
-      0;  // rms of the friction over time about its mean, a share of the friction
+  double time_torque = 0;    // amplitude of the torque over time, a share of the friction
+  double time_friction = 0;  // the same of the friction: rms over time about its mean
 };
 
 /// Why a fit is refused.
@@ -82,66 +94,65 @@ struct Refusal {
 /// E at the last sample of a log that has one stage of heat.
 struct EndEnergy {
   double value = 0;  // N.m or N
-  Eigen::VectorXd
-      slopes;  // [m <= p] dE/dx by the first m estimated rows, on which alone it depends; exact
+  /// [m <= p] dE/dx by the first m estimated rows, on which alone it depends; exact
+  Eigen::VectorXd slopes;
 };
 
-/// A fit of the model F + G + M a to the samples that `used` keeps.
-struct Fit {
-  std::string identifier;
-  std::optional<Refusal> refusal;  // then nothing else is known but the trace
-  std::string summary;             // summary of the fit: a clause that begins the message
-  /// Remarks on the fit, and causes that invalidate its numbers or leave them without intervals.
-  std::vector<Cause> causes;
-
-  // the model
-  Friction friction;  // law, warming and maps, whatever their bounds
-  std::optional<GravityModel> gravity;
-  Eigen::MatrixXd gravity_by_rows;  // [m x q] its values by the table's rows of it
-  std::optional<double> inertia;    // torque over acceleration, kg.m^2 or kg
-  /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
-  Eigen::VectorXd inertia_torque;
-  std::optional<FittedFields> fields{};
-  std::optional<FittedLag> torque_lag;  // where the log showed one and it was fitted
-  /// By how much the torque is late relative to the motion, s: the model follows the motion at t less that (Delayed).
-  std::optional<double> torque_delay{};
-  double initial_energy = 0;  // E(0), N.m or N
-  /// Friction with which each recording begins, [R] N.m or N, where it bends a bristle and was
-  /// estimated; else empty.
-  std::vector<double> first_friction;
-  std::vector<Eigen::Index> jump_samples;  // [J] where E jumps by a parameter with Role::jump
-  /// Standard error of E at the end of the log, N.m or N, of a fit whose table lacks something that
-  /// E depends on, such as the weights of maps; else not set, since it follows from the table.
-  std::optional<double> end_energy_std;
-  /// E at the end of the log by the fit's own recursion; or not set, so that the report computes it along the motion.
-  std::function<EndEnergy()> end_energy;
-  std::vector<Unknown> parameters;  // [P]; those estimated come in the order of x
-
-  // what it was fitted to, and how well
+/// What a fit was made to, and how well it fits.
+struct FitRows {
   Selection used;
   Eigen::VectorXd torque;  // [n] measured, N.m or N
   Eigen::VectorXd fitted;  // [n] F + G + M a, after the lag where there is one, N.m or N
   /// d(F + G + M a)/dx over all samples, [N x p], exact; of a fit whose errors.covariance is not set.
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;
+  Eigen::MatrixXd gravity;  // [m x q] values of the gravity by the table's rows of it
+  /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
+  Eigen::VectorXd inertia_torque;
+  /// [N] what a lag adds to F + G at the kept samples, N.m or N, 0 elsewhere; or empty.
+  Eigen::VectorXd by_lag;
   int count = 0;                    // of parameters, kernels included
   double effective_parameters = 0;  // trace of the hat matrix
   std::optional<double> loss_bend;  // from which residual on a robust loss is linear, N.m or N
-  std::vector<MapBand> bands;       // one for each of the friction's maps
+
+  /// Over the kept samples. [n] N.m or N
+  Eigen::VectorXd residual() const { return torque - fitted; }
+};
+
+/// What a fit says of the friction in addition to its table and model.
+struct FitFigures {
+  std::optional<FittedFields> fields{};
+  std::vector<MapBand> bands;  // one for each of the friction's maps
   /// Of each band, the derivatives of its values by the law's parameters, [g x d].
   std::vector<Eigen::MatrixXd> bands_by_law;
   /// The friction of law and maps at speeds, with intervals by noise; without maps it follows from the law's parameters.
   std::vector<FrictionAtSpeed> friction_at_speeds;
-  std::vector<Iterate> trace;
+  /// Standard error of E at the end of the log, N.m or N, of a fit whose table lacks something that
+  /// E depends on, such as the weights of maps; else not set, since it follows from the table.
+  std::optional<double> end_energy_std;
+  /// E at the end of the log by the fit's own recursion; or not set, so that the report computes it along the motion.
+  std::function<EndEnergy()> end_energy;
+};
 
+/// A fit of the model F + G + M a to the samples that `rows.used` keeps.
+struct Fit {
+  std::string identifier;
+  std::optional<Refusal> refusal;  // then nothing else is known but the trace
+  std::string summary;             // summary of the fit: a clause that begins the message
+  /// Remarks on the fit, and causes that invalidate its numbers or leave them without intervals.
+  std::vector<Cause> causes;
+  TorqueModel model;
+  FittedStart start;
+  std::vector<Unknown> parameters;  // [P]; those estimated come in the order of x
+  FitRows rows;
+  FitFigures figures;
+  std::vector<Iterate> trace;
   std::optional<StructureChoice> choice;  // of an identifier that chooses
   /// The same structure, fitted to other samples: of an identifier that chooses one; else not set.
   std::function<Fit(const IdentifierInput&)> structure;
 
   /// The heat that the log began with: E(0), and the jumps of E.
   ThermalStart Start() const;
-  /// Residual over the kept samples. [n] N.m or N
-  Eigen::VectorXd residual() const { return torque - fitted; }
   /// The table's row of the which-th parameter with a role; nothing where there are fewer.
   std::optional<size_t> RowOf(Role role, int which = 0) const;
   /// Values of the parameters with a role, in the order of the table.

@@ -187,15 +187,15 @@ Friction FrictionOf(const Law& law, const Eigen::VectorXd& values,
 
 void FollowTable(Fit& fit) {
   for (const Unknown& row : fit.parameters) {
-    if (double* const place = row.PlaceIn(fit.friction)) *place = row.value;
-    if (row.role == Role::start) fit.initial_energy = row.value;
-    if (row.role == Role::inertia) fit.inertia = row.value;
-    if (row.role == Role::delay) fit.torque_delay = row.value;
+    if (double* const place = row.PlaceIn(fit.model.friction)) *place = row.value;
+    if (row.role == Role::start) fit.start.energy = row.value;
+    if (row.role == Role::inertia) fit.model.inertia = row.value;
+    if (row.role == Role::delay) fit.model.delay = row.value;
   }
-  if (fit.gravity_by_rows.size() == 0) return;
+  if (fit.rows.gravity.size() == 0) return;
   const std::vector<double> gravity = fit.Values(Role::gravity);
-  fit.gravity->values =
-      fit.gravity_by_rows * Eigen::Map<const Eigen::VectorXd>(gravity.data(), std::ssize(gravity));
+  fit.model.gravity->values =
+      fit.rows.gravity * Eigen::Map<const Eigen::VectorXd>(gravity.data(), std::ssize(gravity));
 }
 
 const EstimatedParameter* Find(Role role, const Estimate& estimate, int which) {

@@ -21,8 +21,8 @@ namespace {
 
 /// Why samples that were asked for are not compared.
 std::string WhyNone(const Fit& fit, Eigen::Index asked) {
-  if (asked > 0 && fit.gravity) return kKnowsNoGravityThere;
-  return fit.inertia ? kNothingMoves : kNothingHoldsASpeed;
+  if (asked > 0 && fit.model.gravity) return kKnowsNoGravityThere;
+  return fit.model.inertia ? kNothingMoves : kNothingHoldsASpeed;
 }
 
 /// The samples that were chosen, as far as they are within the first part of a log.
@@ -102,7 +102,7 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
 
 HeldOut HoldOut(const Identifier& identifier, const Fit& fit, const PreparedLog& other) {
   const ThermalStart cold;
-  const LogView& seen = SeenByModel(fit.inertia, identifier.view, other);
+  const LogView& seen = SeenByModel(fit.model.inertia, identifier.view, other);
   if (auto metrics = Evaluate(fit, seen.measurements, seen.selection, cold)) {
     return {std::move(metrics), ""};
   }
@@ -141,8 +141,7 @@ std::optional<Eigen::VectorXd> UnseenResiduals(const Identifier& identifier,
     const IdentifierInput rest = input.With(others);
     const Fit fit = identifier.fit(rest);
     if (!GivesFriction(fit)) return std::nullopt;
-    const TorquePrediction predicted =
-        PredictTorque(ModelOf(fit), m, std::move(block), fit.Start());
+    const TorquePrediction predicted = PredictTorque(fit.model, m, std::move(block), fit.Start());
     if (predicted.covered.count() == 0) return std::nullopt;
     left = predicted.covered.keep.select(m.torque - predicted.torque, left);
   }
@@ -178,32 +177,24 @@ TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logge
   return predicted;
 }
 
-TorqueModel ModelOf(const Fit& fit) {
-  TorqueModel model{fit.friction, fit.gravity, fit.inertia};
-  if (fit.torque_lag) model.lag = fit.torque_lag->time_constant;
-  model.delay = fit.torque_delay;
-  return model;
-}
-
 std::optional<Metrics> Evaluate(const Fit& fit, const LogSamples& measurements, Selection test,
                                 const ThermalStart& start) {
   if (!GivesFriction(fit)) return std::nullopt;
-  const Friction& friction = fit.friction;
-  const TorquePrediction predicted =
-      PredictTorque(ModelOf(fit), measurements, std::move(test), start);
+  const Friction& friction = fit.model.friction;
+  const TorquePrediction predicted = PredictTorque(fit.model, measurements, std::move(test), start);
   if (predicted.covered.count() == 0) return std::nullopt;
 
   // all parameters that the model has, weights of kernels included
   auto parameters = friction.parameters.size() + (friction.thermal ? 2 : 0);
   for (const FrictionMap& map : friction.maps) parameters += map.weights.size();
-  if (fit.gravity) parameters += fit.gravity->values.size();
-  if (fit.inertia) ++parameters;
-  if (fit.torque_lag) ++parameters;
+  if (fit.model.gravity) parameters += fit.model.gravity->values.size();
+  if (fit.model.inertia) ++parameters;
+  if (fit.model.lag) ++parameters;
   if (fit.RowOf(Role::delay)) ++parameters;
   if (fit.RowOf(Role::load)) ++parameters;
   return ComputeMetrics(Kept(measurements.torque, predicted.covered),
                         Kept(predicted.torque, predicted.covered), static_cast<int>(parameters),
-                        fit.effective_parameters);
+                        fit.rows.effective_parameters);
 }
 
 }  // namespace warmjoint

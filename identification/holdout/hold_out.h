@@ -59,15 +59,6 @@ std::optional<Eigen::VectorXd> UnseenResiduals(const Identifier& identifier,
                                                const IdentifierInput& input,
                                                const std::vector<Eigen::Index>& bounds);
 
-/// The torque of a joint by a fit: F + G + M a, Eqs. (5) and (20).
-struct TorqueModel {
-  Friction friction;
-  std::optional<GravityModel> gravity;
-  std::optional<double> inertia;  // kg.m^2 or kg
-  std::optional<double> lag{};    // s, of the torque's way into the log, first order
-  std::optional<double> delay{};  // s, by which the torque is late relative to motion of any kind
-};
-
 struct TorquePrediction {
   Eigen::VectorXd torque;  // [N] as the log would hold it, N.m or N
   Selection covered;       // of the samples asked for, those where the model knows its gravity
@@ -78,9 +69,6 @@ struct TorquePrediction {
 /// acceleration (PreparedLog::moving). asked: samples that are to be compared.
 TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& measurements,
                                Selection asked, const ThermalStart& start);
-
-/// The model of the torque by a fit, with the lag on its way into the log.
-TorqueModel ModelOf(const Fit& fit);
 
 /// Compares the torque that the fit's friction, gravity and inertia predict along a log with the samples that
 /// `test` keeps; where the fit knows its gravity only in places, with those there. The prediction

@@ -200,7 +200,7 @@ Structure WithLagOrFields(const Structure& chosen, const Lateness& late,
   if (!may_lag) return with;
   const auto squares = [&](const Structure& one) {
     const Fit fit = FitOnAll(one.PointEstimate(), late, input);
-    return fit.refusal ? kInfinity : fit.residual().squaredNorm();
+    return fit.refusal ? kInfinity : fit.rows.residual().squaredNorm();
   };
   return squares(lagged) < squares(with) ? lagged : with;
 }
@@ -214,7 +214,7 @@ std::optional<Structure> FollowingTemperature(const Structure& chosen, const Fit
   const FieldSet& fields = input.options.Get<AutoOptions>().fields;
   const bool may_follow =
       input.measurements.temperature && fields.Has(FieldKind::temperature_friction);
-  if (!may_follow || !chosen.CanWarm() || !fit.fields) return std::nullopt;
+  if (!may_follow || !chosen.CanWarm() || !fit.figures.fields) return std::nullopt;
   const Structure cold = Structure{FindIdentifier("nominal-ls"), "law"}
                              .With(chosen.identifier.options.Get<LawOption>())
                              .With(GravityOption{chosen.gravity()});
@@ -222,7 +222,8 @@ std::optional<Structure> FollowingTemperature(const Structure& chosen, const Fit
   FieldOption rivals{fields};
   std::erase(rivals.fields.kinds, FieldKind::time_friction);
   const Fit rival = FitOnAll(cold.With(rivals), late, input);
-  if (!rival.fields || !(rival.fields->cost + kOdds < fit.fields->cost)) return std::nullopt;
+  if (!rival.figures.fields || !(rival.figures.fields->cost + kOdds < fit.figures.fields->cost))
+    return std::nullopt;
   return cold.With(FieldOption{fields});
 }
 

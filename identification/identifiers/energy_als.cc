@@ -311,9 +311,9 @@ Fit ModelOf(const IdentifierInput& input, const NominalPart& part, const Descent
   const Eigen::VectorXd values = part.law().Of(last.nominal);
   Fit fit;
   fit.identifier = kName;
-  fit.friction = FrictionOf(law, values, m);
-  fit.friction.thermal = last.thermal;
-  fit.friction.maps = WithWeights(part.maps, part.weights().Of(last.nominal));
+  fit.model.friction = FrictionOf(law, values, m);
+  fit.model.friction.thermal = last.thermal;
+  fit.model.friction.maps = WithWeights(part.maps, part.weights().Of(last.nominal));
   fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(m)), values);
   Append(HeatParameters(last.thermal, m), fit);
   AddRigid(part.gravity, part.rigid().Of(last.nominal), m, fit);
@@ -333,25 +333,25 @@ Fit Conclude(const IdentifierInput& input, const NominalPart& part, const BlockD
   if (fit.refusal) return fit;
 
   // both blocks together
-  fit.used = part.moving;
-  fit.torque = Kept(input.measurements.torque, part.moving);
+  fit.rows.used = part.moving;
+  fit.rows.torque = Kept(input.measurements.torque, part.moving);
   const Eigen::MatrixXd jacobian = Kept(descent.Jacobian(last), part.moving);
-  const auto cofactor = JointCofactor(part, jacobian, fit.torque);
+  const auto cofactor = JointCofactor(part, jacobian, fit.rows.torque);
   if (!cofactor) {
     fit.refusal = {Status::not_identifiable, kWarmingIsMixed};
     return fit;
   }
-  fit.fitted = Kept(fitted, part.moving);
-  fit.count = static_cast<int>(part.weights().end() + 2);
-  fit.effective_parameters = part.effective + 2;
+  fit.rows.fitted = Kept(fitted, part.moving);
+  fit.rows.count = static_cast<int>(part.weights().end() + 2);
+  fit.rows.effective_parameters = part.effective + 2;
 
   // the uncertainty so far, and the distance from the fixed point
   const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
                                                 .cofactor = *cofactor,
-                                                .residual = fit.residual(),
-                                                .selection = fit.used,
-                                                .fitted = fit.fitted});
-  fit.errors.covariance = [of_table = OfTable(part, uncertainty)] { return of_table; };
+                                                .residual = fit.rows.residual(),
+                                                .selection = fit.rows.used,
+                                                .fitted = fit.rows.fitted});
+  fit.rows.errors.covariance = [of_table = OfTable(part, uncertainty)] { return of_table; };
   const auto [arrived, message] =
       Arrival(states, uncertainty, input.options.Get<EnergyAlsOptions>().tolerance);
   if (!arrived) fit.causes.push_back(Invalidate(Status::not_converged, message));
@@ -389,7 +389,7 @@ Fit FitInTurn(const IdentifierInput& input) {
       Descend(descent, *start.thermal, input.options.Get<EnergyAlsOptions>().iterations);
 
   Fit fit = Conclude(input, part, descent, states);
-  fit.trace = Trace(states, static_cast<Eigen::Index>(fit.friction.parameters.size()));
+  fit.trace = Trace(states, static_cast<Eigen::Index>(fit.model.friction.parameters.size()));
   return fit;
 }
 

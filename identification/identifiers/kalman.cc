@@ -250,14 +250,14 @@ std::optional<Refusal> WhyRefused(const KalmanTrack& track, const Fit& fit, cons
   const Eigen::Index p = last.at.energy(), log_tau = last.at.log_time_constant();
 
   // how clearly the warming is seen, and how well its time constant is known
-  const double squares = fit.residual().squaredNorm();
-  const double variance = squares / static_cast<double>(fit.torque.size() - p);
+  const double squares = fit.rows.residual().squaredNorm();
+  const double variance = squares / static_cast<double>(fit.rows.torque.size() - p);
   const auto [shortest, longest] = TimeConstantRange(track);
   const double vague =
       joint.rank == p ? std::sqrt(variance * joint.cofactor(log_tau, log_tau)) : kInfinity;
   if (auto why = UnidentifiableWarming(
-          {ExplainedVariances(nominal_squares, squares, static_cast<double>(fit.torque.size() - p),
-                              fit.torque),
+          {ExplainedVariances(nominal_squares, squares,
+                              static_cast<double>(fit.rows.torque.size() - p), fit.rows.torque),
            vague, last.thermal().time_constant, shortest, longest, m.time[m.size() - 1] - m.time[0],
            MedianStep(m.time)})) {
     return Refusal{Status::not_identifiable, *why};
@@ -287,34 +287,35 @@ Fit Conclude(const KalmanTrack& track, const std::vector<KalmanPass>& passes,
   }
 
   // the model, and how well it fits
-  fit.friction = FrictionOf(track.law, x, m);
-  fit.friction.thermal = thermal;
+  fit.model.friction = FrictionOf(track.law, x, m);
+  fit.model.friction.thermal = thermal;
   const LoopResponse response = track.loop.Simulate(x, thermal);
-  fit.used = track.selection;
-  fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = Kept(response.force, fit.used);
-  fit.count = static_cast<int>(last.at.energy());
-  fit.effective_parameters = fit.count;
+  fit.rows.used = track.selection;
+  fit.rows.torque = Kept(m.torque, fit.rows.used);
+  fit.rows.fitted = Kept(response.force, fit.rows.used);
+  fit.rows.count = static_cast<int>(last.at.energy());
+  fit.rows.effective_parameters = fit.rows.count;
 
   // the information of the whole recording on these parameters
   const LawBlocks law(track.loop, LawColumns(track.law, m.velocity));
-  Eigen::MatrixXd jacobian = Kept(WarmJacobian(law, x, thermal, 0), fit.used).leftCols(fit.count);
+  Eigen::MatrixXd jacobian =
+      Kept(WarmJacobian(law, x, thermal, 0), fit.rows.used).leftCols(fit.rows.count);
   jacobian.col(last.at.log_time_constant()) *= thermal.time_constant;  // from tau to ln tau
-  if (!fit.fitted.allFinite() || !jacobian.allFinite()) {
+  if (!fit.rows.fitted.allFinite() || !jacobian.allFinite()) {
     fit.refusal = RanAway();
     return fit;
   }
-  const LeastSquares joint = SolveLeastSquares(jacobian, fit.torque, kSingular);
+  const LeastSquares joint = SolveLeastSquares(jacobian, fit.rows.torque, kSingular);
   fit.refusal = WhyRefused(track, fit, last, joint, response, nominal_squares);
   if (fit.refusal) return fit;
   const Uncertainty uncertainty = CovarianceOf({.rows = RowsFrom([&] { return jacobian; }),
                                                 .cofactor = joint.cofactor,
-                                                .residual = fit.residual(),
-                                                .selection = fit.used,
-                                                .fitted = fit.fitted});
-  fit.errors.covariance = [uncertainty] { return uncertainty; };
-  fit.summary =
-      SummaryOfFilter(passes.size(), fit.torque.size(), last.mean[last.at.energy()], m.torque_unit);
+                                                .residual = fit.rows.residual(),
+                                                .selection = fit.rows.used,
+                                                .fitted = fit.rows.fitted});
+  fit.rows.errors.covariance = [uncertainty] { return uncertainty; };
+  fit.summary = SummaryOfFilter(passes.size(), fit.rows.torque.size(), last.mean[last.at.energy()],
+                                m.torque_unit);
 
   // a law that the data rule out needs no verdict on its passes
   if (Infer(fit).status == Status::ok) JudgePasses(passes, fit);

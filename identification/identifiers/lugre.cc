@@ -256,7 +256,8 @@ std::optional<Refusal> WhyRefused(const IdentifierInput& input, const LugreProbl
 
 /// Invalidates a fit that does not describe the friction around turns.
 void JudgeTurns(const LogSamples& m, const NoiseOfGroups& noise, Fit& fit) {
-  const double friction = fit.torque.norm() / std::sqrt(static_cast<double>(fit.torque.size()));
+  const double friction =
+      fit.rows.torque.norm() / std::sqrt(static_cast<double>(fit.rows.torque.size()));
   if (!(noise.others > kMissed * noise.kept) || !(noise.others > kNotable * friction)) return;
   fit.causes.push_back(
       Invalidate(Status::inadequate_model, ExplainTurns(noise.others, noise.kept, m.torque_unit)));
@@ -273,32 +274,32 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   const FallingPlaces& at = problem.places();
   const Eigen::VectorXd& x = answer.fit.solution.x;
   SetModel(m, problem, x, fit);
-  fit.used = problem.used;
-  fit.inertia_torque = x[at.inertia()] * problem.acceleration;
+  fit.rows.used = problem.used;
+  fit.rows.inertia_torque = x[at.inertia()] * problem.acceleration;
   // friction with which each recording begins: the load of the bristle and the viscous part
   const double viscous = x[at.law().begin];
   const std::vector<SampleRange> recordings = m.Recordings();
   for (size_t r = 0; r < answer.fit.loads.size(); ++r) {
     const double velocity = problem.motion.velocity(recordings[r].first);
-    fit.first_friction.push_back(answer.fit.loads[r] + viscous * velocity);
+    fit.start.friction.push_back(answer.fit.loads[r] + viscous * velocity);
   }
-  fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = fit.torque - answer.fit.residual.cwiseProduct(problem.deviation);
-  fit.count = static_cast<int>(answer.uncertainty.covariance.rows()) +
-              static_cast<int>(answer.fit.loads.size());
-  fit.effective_parameters = fit.count;
+  fit.rows.torque = Kept(m.torque, fit.rows.used);
+  fit.rows.fitted = fit.rows.torque - answer.fit.residual.cwiseProduct(problem.deviation);
+  fit.rows.count = static_cast<int>(answer.uncertainty.covariance.rows()) +
+                   static_cast<int>(answer.fit.loads.size());
+  fit.rows.effective_parameters = fit.rows.count;
 
   // divided by its deviations, which take up what is uneven, a residual shows only its colour
   Uncertainty uncertainty = answer.uncertainty;
   uncertainty.uneven = 0;
-  fit.errors.covariance = [uncertainty] { return uncertainty; };
+  fit.rows.errors.covariance = [uncertainty] { return uncertainty; };
 
-  const Eigen::Index turns = fit.torque.size() - input.selection.count();
+  const Eigen::Index turns = fit.rows.torque.size() - input.selection.count();
   std::optional<AroundReversals> around;
   if (turns > 0) {
     around = AroundReversals{.samples = turns, .residual = noise.others, .elsewhere = noise.kept};
   }
-  fit.summary = SummaryOfBristle({.count = fit.torque.size()}, around, m.torque_unit);
+  fit.summary = SummaryOfBristle({.count = fit.rows.torque.size()}, around, m.torque_unit);
   JudgeTurns(m, noise, fit);
 }
 

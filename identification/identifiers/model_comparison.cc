@@ -126,8 +126,8 @@ Trial Try(const Structure& structure, const IdentifierInput& input) {
   Trial trial{structure, structure.Quick().Fitted(input)};
   trial.gives_friction = GivesFriction(trial.fit);
   // the shape that was chosen for a map stays with the structure
-  if (!trial.fit.friction.maps.empty()) {
-    trial.structure = structure.WithShapeOf(trial.fit.friction.maps[0]);
+  if (!trial.fit.model.friction.maps.empty()) {
+    trial.structure = structure.WithShapeOf(trial.fit.model.friction.maps[0]);
   }
   if (trial.gives_friction) return trial;
 
@@ -180,12 +180,12 @@ bool ShowsWeight(const IdentifierInput& input) {
 
   // on the rows of both
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const VectorXd left = AmongAll(without.residual(), without.used, none);
+  const VectorXd left = AmongAll(without.rows.residual(), without.rows.used, none);
   Selection common = input.selection;
   common.keep = common.keep && left.array().isFinite() && unseen->array().isFinite();
   const std::vector<StructureCandidate> both{
-      {without.identifier, Kept(left, common), without.effective_parameters},
-      {with.Name(), Kept(*unseen, common), without.effective_parameters + 2}};
+      {without.identifier, Kept(left, common), without.rows.effective_parameters},
+      {with.Name(), Kept(*unseen, common), without.rows.effective_parameters + 2}};
   if (common.count() == 0 || !(2 * both[1].MeanSquare() < both[0].MeanSquare())) return false;
   return ChooseStructure(both).chosen == 1;
 }
@@ -223,7 +223,8 @@ std::optional<double> ModelComparison::LagOfBest(const IdentifierInput& all) con
   // jumps of E are at rows: back to the samples with which those begin
   ThermalStart start = fit.Start();
   for (EnergyJump& jump : start.jumps) jump.sample = log_.first[static_cast<size_t>(jump.sample)];
-  return LagOf(best->structure, {fit.friction, fit.gravity, fit.inertia}, start, all);
+  return LagOf(best->structure, {fit.model.friction, fit.model.gravity, fit.model.inertia}, start,
+               all);
 }
 
 std::optional<double> ModelComparison::DelayOfBest(const IdentifierInput& all) const {
@@ -232,7 +233,7 @@ std::optional<double> ModelComparison::DelayOfBest(const IdentifierInput& all) c
   const Structure* best = Best();
   if (best && best->CanEstimateDelay()) {
     const Fit fit = best->Fitted(all);
-    if (!fit.refusal) return IsLate(fit) ? fit.torque_delay : std::nullopt;
+    if (!fit.refusal) return IsLate(fit) ? fit.model.delay : std::nullopt;
   }
   const auto found = FindLateTorque(all);
   return found ? std::optional(found->delay) : std::nullopt;
@@ -243,8 +244,8 @@ bool ModelComparison::MayHaveMap() const {
   if (!best) return true;
   const LogSamples& m = log_.view.measurements;
   if (m.position_integrated) return KnowsMotorAngle(m);
-  const MapPoints points = Kept(PointsOf(m), best->fit.used);
-  return LeavesOverPlace(best->fit.residual(), points);
+  const MapPoints points = Kept(PointsOf(m), best->fit.rows.used);
+  return LeavesOverPlace(best->fit.rows.residual(), points);
 }
 
 ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
@@ -254,7 +255,7 @@ ChosenKernels ModelComparison::KernelsGivenBest(FittedGravity gravity) const {
   Eigen::VectorXd energy;
   if (best) {
     const Fit& fit = best->fit;
-    energy = PredictTorque(ModelOf(fit), log_.view.measurements, log_.view.selection, fit.Start())
+    energy = PredictTorque(fit.model, log_.view.measurements, log_.view.selection, fit.Start())
                  .friction.energy;
   }
 
@@ -408,7 +409,7 @@ const Trial* ModelComparison::WithSlope(const Trial& trial) const {
 }
 
 bool ModelComparison::Pushes(const Fit& fit) const {
-  const Eigen::VectorXd residual = fit.residual();
+  const Eigen::VectorXd residual = fit.rows.residual();
   if (residual.size() == 0) return false;
   const double mean = residual.mean();
   const double square = residual.squaredNorm() / static_cast<double>(residual.size());

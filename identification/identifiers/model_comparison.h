@@ -58,11 +58,11 @@ struct Trial {
   bool outdone = false;   // whether it was dropped in favour of another that is still a contender
   std::optional<Eigen::VectorXd> unseen{};  // [N] of a contender, UnseenResiduals
 
-  double Parameters() const { return fit.effective_parameters; }
+  double Parameters() const { return fit.rows.effective_parameters; }
   /// (N.m)^2 or N^2; of exact fits that of rounding, so that none is better than another.
   double MeanSquare() const {
-    return std::max(fit.residual().squaredNorm() / static_cast<double>(fit.torque.size()),
-                    RoundingVariance(fit.torque));
+    return std::max(fit.rows.residual().squaredNorm() / static_cast<double>(fit.rows.torque.size()),
+                    RoundingVariance(fit.rows.torque));
   }
 };
 

@@ -189,28 +189,28 @@ Fit FitOnline(const IdentifierInput& given) {
   fit.identifier = kName;
   const Eigen::VectorXd x = Run(A, y, forgetting, task.law_count(), fit.trace);
   const Eigen::VectorXd values = x.head(task.law_count());
-  fit.friction = FrictionOf(law, values, m);
-  fit.friction.thermal = thermal;
+  fit.model.friction = FrictionOf(law, values, m);
+  fit.model.friction.thermal = thermal;
   fit.parameters = WithValues(LawUnknowns(law, values.size(), UnitsOf(m)), values);
   AddRigid(gravity, x.tail(gravity.count()), m, fit);
 
   // and how well they fit
   const Eigen::VectorXd residual = y - A * x;
-  fit.used = input.selection;
-  fit.torque = Kept(m.torque, input.selection);
-  fit.fitted = fit.torque - residual;
-  fit.errors.cofactor = weighted.cofactor;
-  fit.errors.weights = weights;
+  fit.rows.used = input.selection;
+  fit.rows.torque = Kept(m.torque, input.selection);
+  fit.rows.fitted = fit.rows.torque - residual;
+  fit.rows.errors.cofactor = weighted.cofactor;
+  fit.rows.errors.weights = weights;
   if (heat) {
-    fit.errors.covariance = [uncertainty = ThroughHeat(*heat, rows, weights, residual,
-                                                       weighted.cofactor, input.selection)] {
+    fit.rows.errors.covariance = [uncertainty = ThroughHeat(*heat, rows, weights, residual,
+                                                            weighted.cofactor, input.selection)] {
       return uncertainty;
     };
   }
-  fit.count = task.count();
-  fit.effective_parameters = fit.count;
+  fit.rows.count = task.count();
+  fit.rows.effective_parameters = fit.rows.count;
   fit.summary = SummaryOfForgetting(law.name, weights.sum(), y.size());
-  fit.jacobian = [all = std::move(rows)] { return all; };
+  fit.rows.jacobian = [all = std::move(rows)] { return all; };
   return fit;
 }
 

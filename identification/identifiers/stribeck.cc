@@ -102,8 +102,8 @@ std::optional<std::string> UnidentifiableHeat(const StribeckProblem& problem,
 /// Invalidates a fit whose friction drives the joint on this motion. Where the data rule the law out, or
 /// it may be within its bounds only by chance, there is no friction to simulate.
 void JudgeWarmth(const LogSamples& m, std::string_view without, Fit& fit) {
-  if (!fit.friction.thermal || !GivesFriction(fit)) return;
-  const Prediction predicted = PredictFriction(fit.friction, m);
+  if (!fit.model.friction.thermal || !GivesFriction(fit)) return;
+  const Prediction predicted = PredictFriction(fit.model.friction, m);
   if (predicted.first_driving == m.size()) return;
   fit.causes.push_back(Invalidate(
       Status::inadequate_model,
@@ -129,18 +129,18 @@ void Conclude(const IdentifierInput& input, const StribeckProblem& problem, cons
   const FallingPlaces at = problem.places();
   SetFallingModel(problem.law, problem.exponent, at, best.solution.x, input.measurements, fit);
   AddRigid(rigid, best.solution.x.tail(rigid.count()), input.measurements, fit);
-  fit.used = input.selection;
-  fit.torque = Kept(input.measurements.torque, fit.used);
-  fit.fitted = best.fitted;
-  fit.jacobian = [model = best.model, x = best.solution.x] {
+  fit.rows.used = input.selection;
+  fit.rows.torque = Kept(input.measurements.torque, fit.rows.used);
+  fit.rows.fitted = best.fitted;
+  fit.rows.jacobian = [model = best.model, x = best.solution.x] {
     return ModelAt(*model, x).All().derivatives;
   };
-  fit.errors.cofactor = best.cofactor;
-  fit.count = static_cast<int>(best.solution.x.size());
-  fit.effective_parameters = fit.count;
-  fit.summary = SummaryOfFall(
-      {.count = fit.torque.size(), .is_any_motion = input.measurements.acceleration.has_value()},
-      problem.exponent);
+  fit.rows.errors.cofactor = best.cofactor;
+  fit.rows.count = static_cast<int>(best.solution.x.size());
+  fit.rows.effective_parameters = fit.rows.count;
+  fit.summary = SummaryOfFall({.count = fit.rows.torque.size(),
+                               .is_any_motion = input.measurements.acceleration.has_value()},
+                              problem.exponent);
 
   // the uncertainty of the fit, and whether it is small enough
   const Uncertainty uncertainty = CovarianceOf(fit);

@@ -208,8 +208,8 @@ std::optional<double> LagOf(const Structure& structure, const TorqueModel& witho
 
   // then how long it is, by the structure that estimates it
   const Fit behind = structure.With(LagOption{PartFit::estimated}).Fitted(input);
-  if (behind.refusal || !behind.torque_lag) return std::nullopt;
-  return behind.torque_lag->time_constant;
+  if (behind.refusal || !behind.model.lag) return std::nullopt;
+  return behind.model.lag;
 }
 
 std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
@@ -230,14 +230,14 @@ std::optional<LateTorque> FindLateTorque(const IdentifierInput& input) {
   // the law compared with that of a fit without a delay
   const Fit in_time = richest.With(DelayOption{PartFit::none}).Fitted(input);
   const Eigen::MatrixXd columns =
-      LawColumns(*FindLaw(fit.friction.law), Kept(m.velocity, fit.used));
+      LawColumns(*FindLaw(fit.model.friction.law), Kept(m.velocity, fit.rows.used));
   const auto along = [&](const Fit& one) -> Eigen::VectorXd {
-    const std::vector<double> values = LawValues(one.friction);
+    const std::vector<double> values = LawValues(one.model.friction);
     return columns * Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values));
   };
   const Eigen::VectorXd force = along(fit);
-  if (in_time.refusal) return LateTorque{*fit.torque_delay, 1};
-  return LateTorque{*fit.torque_delay, (along(in_time) - force).norm() / force.norm()};
+  if (in_time.refusal) return LateTorque{*fit.model.delay, 1};
+  return LateTorque{*fit.model.delay, (along(in_time) - force).norm() / force.norm()};
 }
 
 Selection Settled(const LogSamples& m, Selection selection, double lag) {

@@ -47,15 +47,15 @@ bool RisesFromRest(const Friction& friction) {
 
 /// F + G + M a of a fit along the motion of a log. [N] N.m or N
 Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
-  const auto followed = Followed(logged, fit.used, PartsOf(fit));
+  const auto followed = Followed(logged, fit.rows.used, PartsOf(fit));
   return TorqueAlong(fit, followed ? followed->measurements : logged);
 }
 
 /// F of a fit along the motion of a log, at the samples that the fit used. [n] N.m or N
 Eigen::VectorXd FrictionOver(const Fit& fit, const LogSamples& logged, const Selection& used) {
-  const auto followed = Followed(logged, fit.used, PartsOf(fit));
+  const auto followed = Followed(logged, fit.rows.used, PartsOf(fit));
   const LogSamples& m = followed ? followed->measurements : logged;
-  return Kept(PredictFriction(fit.friction, m, fit.Start()).force, used);
+  return Kept(PredictFriction(fit.model.friction, m, fit.Start()).force, used);
 }
 
 /// The 95 % interval of an inertia that was fitted and lies below 0 with the whole of it.
@@ -116,7 +116,7 @@ Minimum NearestWithin(const std::vector<Unknown>& table, const Uncertainty& unce
 /// The fit with its law within the bounds. measurements: of the fit
 Fit HoldLaw(Fit fit, const LogSamples& measurements) {
   const bool stands = !fit.refusal && !IsRefused(fit.causes);
-  if (!stands || !LeavesBounds(fit.parameters) || !fit.friction.maps.empty()) return fit;
+  if (!stands || !LeavesBounds(fit.parameters) || !fit.model.friction.maps.empty()) return fit;
   const Inference by_noise = Apply(ByNoise(fit), fit.causes);
   if (by_noise.status != Status::ok) return fit;
   auto left = FindLeftByNoise(fit, by_noise);
@@ -128,8 +128,8 @@ Fit HoldLaw(Fit fit, const LogSamples& measurements) {
   const Eigen::VectorXd before = TorqueOf(fit, measurements);
   Cause cause = HoldAt(nearest.x, nearest.at_bound, fit);
   cause.sentence = std::move(left->sentence);
-  fit.fitted += Kept(TorqueOf(fit, measurements) - before, fit.used);
-  fit.end_energy = nullptr;
+  fit.rows.fitted += Kept(TorqueOf(fit, measurements) - before, fit.rows.used);
+  fit.figures.end_energy = nullptr;
   fit.causes.push_back(std::move(cause));
   return fit;
 }
@@ -138,7 +138,7 @@ Fit HoldLaw(Fit fit, const LogSamples& measurements) {
 
 bool GivesFriction(const Fit& fit) {
   const bool stands = !fit.refusal && !IsRefused(fit.causes);
-  return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.friction);
+  return stands && !LeavesBounds(fit.parameters) && !RisesFromRest(fit.model.friction);
 }
 
 std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
@@ -151,7 +151,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise) {
     cause.sentence = ExplainExcess(excess, fit);
     return cause;
   }
-  if (!RisesFromRest(fit.friction)) return std::nullopt;
+  if (!RisesFromRest(fit.model.friction)) return std::nullopt;
   cause.sentence = ExplainRiseFromRest(fit);
   return cause;
 }
@@ -219,8 +219,8 @@ Fit WithoutNegativeInertia(const MakeFit& make, const IdentifierInput& input) {
     cause.Add(i, other->value - one.value);
   }
   const LogSamples& m = input.measurements;
-  const Eigen::VectorXd friction = FrictionOver(without, m, without.used);
-  const Eigen::VectorXd change = FrictionOver(fit, m, without.used) - friction;
+  const Eigen::VectorXd friction = FrictionOver(without, m, without.rows.used);
+  const Eigen::VectorXd change = FrictionOver(fit, m, without.rows.used) - friction;
   cause.size = std::sqrt(change.squaredNorm() / static_cast<double>(change.size()));
   cause.sentence = ExplainHeldInertia(inertia, *interval, change.norm() / friction.norm());
   without.causes.push_back(std::move(cause));

@@ -55,7 +55,7 @@ Cause StructureCause(const Disagreement& structure, const Eigen::VectorXd& frict
   const std::string name = named ? fit.parameters[row].name : "gravity";
 
   // how much the structure changes the fitted torque, relative to the friction
-  const double moved = Rms(Kept(fit.jacobian(), fit.used) * structure.differences);
+  const double moved = Rms(Kept(fit.rows.jacobian(), fit.rows.used) * structure.differences);
   if (!(moved < kDefaultRelevance * Rms(friction))) {
     return DropsIntervals(ExplainStructure(name, structure.deviations, Action::drop_intervals));
   }

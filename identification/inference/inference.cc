@@ -116,27 +116,28 @@ Source SourceOf(ErrorBy by) {
 std::string MessageOf(const Fit& fit, const Inference& inference) {
   // without intervals, the reason for that takes the place of the sentence on the noise
   if (DropIntervals(fit.causes)) return fit.summary;
-  const std::string loss = fit.loss_bend ? DescribeLoss(fit.residual(), *fit.loss_bend) : "";
+  const std::string loss =
+      fit.rows.loss_bend ? DescribeLoss(fit.rows.residual(), *fit.rows.loss_bend) : "";
   return fit.summary + loss + NoiseOf(inference.uncertainty);
 }
 
 /// The uncertainty of a fit to whitened rows, where the colour that is left in the rows counts, too. The degrees of freedom are
 /// those of noise of the colour that was taken off, since that colour was estimated from the same samples.
 Uncertainty OfWhitened(const Fit& fit, const Whitening& whitening) {
-  const ErrorModel& errors = fit.errors;
-  Uncertainty uncertainty =
-      CovarianceOf({.rows = RowsFrom([&] { return whitening.Of(Kept(fit.jacobian(), fit.used)); }),
-                    .cofactor = errors.cofactor,
-                    .residual = whitening.Of(fit.residual()).col(0),
-                    .selection = fit.used,
-                    .fitted = fit.fitted,
-                    .prior = errors.prior});
+  const ErrorModel& errors = fit.rows.errors;
+  Uncertainty uncertainty = CovarianceOf(
+      {.rows = RowsFrom([&] { return whitening.Of(Kept(fit.rows.jacobian(), fit.rows.used)); }),
+       .cofactor = errors.cofactor,
+       .residual = whitening.Of(fit.rows.residual()).col(0),
+       .selection = fit.rows.used,
+       .fitted = fit.rows.fitted,
+       .prior = errors.prior});
   uncertainty.noise = whitening.noise();
   // the covariance if noise of the same variance were white
-  const Eigen::MatrixXd plain = Kept(fit.jacobian(), fit.used);
+  const Eigen::MatrixXd plain = Kept(fit.rows.jacobian(), fit.rows.used);
   uncertainty.white = uncertainty.noise.variance * Cofactor(GramOf(plain));
   const auto samples = static_cast<double>(whitening.size());
-  const auto count = static_cast<double>(fit.errors.cofactor.rows());
+  const auto count = static_cast<double>(fit.rows.errors.cofactor.rows());
   uncertainty.degrees_of_freedom =
       std::min(uncertainty.degrees_of_freedom,
                std::max(samples / uncertainty.noise.variance_inflation - count, 1.0));
@@ -186,7 +187,7 @@ Inference Infer(const Fit& fit) {
 }
 
 Uncertainty CovarianceOf(const Fit& fit) {
-  const ErrorModel& errors = fit.errors;
+  const ErrorModel& errors = fit.rows.errors;
   // a fit whose table lacks some of the fitted parameters has a function of its own
   if (errors.covariance) return errors.covariance();
 
@@ -194,11 +195,11 @@ Uncertainty CovarianceOf(const Fit& fit) {
   if (errors.whitening) return OfWhitened(fit, *errors.whitening);
 
   // a robust loss or a lag brings scores in place of the residual
-  return CovarianceOf({.rows = RowsFrom([&] { return Kept(fit.jacobian(), fit.used); }),
+  return CovarianceOf({.rows = RowsFrom([&] { return Kept(fit.rows.jacobian(), fit.rows.used); }),
                        .cofactor = errors.cofactor,
-                       .residual = errors.scores.size() > 0 ? errors.scores : fit.residual(),
-                       .selection = fit.used,
-                       .fitted = fit.fitted,
+                       .residual = errors.scores.size() > 0 ? errors.scores : fit.rows.residual(),
+                       .selection = fit.rows.used,
+                       .fitted = fit.rows.fitted,
                        .weights = errors.weights,
                        .prior = errors.prior});
 }

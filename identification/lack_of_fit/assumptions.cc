@@ -99,7 +99,7 @@ void AddGiven(const OverBins& over, const Fit& fit, Examination& examination) {
 
   // heat that came or went in gaps of the log
   const Index jumps = model.jump_spread.size(), p = std::ssize(examination.rows);
-  if (jumps == 0 || !fit.jump_samples.empty()) return;
+  if (jumps == 0 || !fit.start.jump_samples.empty()) return;
   const MatrixXd forces = derivatives.middleCols(p, jumps) * model.jump_spread.asDiagonal();
   const WeighedFit without_jumps(bins.weight, derivatives.leftCols(p));
   examination.Add(Source::gaps, Action::widen,

@@ -93,8 +93,8 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
 JointTrajectory TrajectoryFor(const Fit& fit, const LogSamples& m) {
   JointTrajectory trajectory = TrajectoryOf(m, BristleStart::torque);
   const std::vector<SampleRange> recordings = m.Recordings();
-  for (size_t r = 0; r < fit.first_friction.size(); ++r) {
-    trajectory.torque[recordings[r].first] = fit.first_friction[r];
+  for (size_t r = 0; r < fit.start.friction.size(); ++r) {
+    trajectory.torque[recordings[r].first] = fit.start.friction[r];
   }
   return trajectory;
 }
@@ -126,11 +126,11 @@ Jumps JumpsOf(const Fit& fit, const LogSamples& m) {
 /// step: h, s.
 bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::VectorXd& velocity,
                  double step) {
-  if (!fit.friction.thermal) return false;
+  if (!fit.model.friction.thermal) return false;
   const auto tau = fit.RowOf(Role::time_constant);
   if (!tau || !inference.parameters[*tau].std) return false;
   // by how much tau comes out too large, h |k v|/2
-  const double gain = fit.friction.thermal->gain;
+  const double gain = fit.model.friction.thermal->gain;
   const double power = std::abs(gain) * velocity.cwiseAbs().mean();
   return 0.5 * step * power > kMatters * *inference.parameters[*tau].std;
 }
@@ -139,9 +139,9 @@ bool StepMatters(const Fit& fit, const Inference& inference, const Eigen::Vector
 /// derivatives by the jumps that are no assumption, [N x J].
 Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const LogSamples& m,
                            FittedModel& model) {
-  std::vector<double> values = LawValues(fit.friction);
-  if (fit.RowOf(Role::load)) values.push_back(fit.friction.load_gain);
-  const Thermal& thermal = *fit.friction.thermal;
+  std::vector<double> values = LawValues(fit.model.friction);
+  if (fit.RowOf(Role::load)) values.push_back(fit.model.friction.load_gain);
+  const Thermal& thermal = *fit.model.friction.thermal;
   model.thermal = thermal;
 
   // where the log has mean velocities, these make the losses
@@ -154,8 +154,8 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   model.loop = blocks.loop;
   const auto d = static_cast<Eigen::Index>(values.size());
   const Eigen::Map<const Eigen::VectorXd> parameters(values.data(), d);
-  const Eigen::MatrixXd all = WarmJacobian(blocks, parameters, thermal, fit.initial_energy,
-                                           {Behind(jumps.at), jumps.values});
+  const Eigen::MatrixXd all =
+      WarmJacobian(blocks, parameters, thermal, fit.start.energy, {Behind(jumps.at), jumps.values});
 
   // law, heat and, where it was estimated, the first start; where it was not, it is an assumption, too
   const bool starts = !fit.Values(Role::start).empty();
@@ -173,7 +173,7 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
   // how large the jumps may be, and the force that losses held over each step leave out
   model.jump_spread = JumpSpread(known, model.energy.cwiseAbs().maxCoeff(), thermal.time_constant);
   if (StepMatters(fit, inference, m.velocity, model.step)) {
-    model.held_loss = ForceOfHeldLoss(fit.friction, m, fit.Start());
+    model.held_loss = ForceOfHeldLoss(fit.model.friction, m, fit.Start());
   }
   return all(Eigen::all, by_known);
 }
@@ -181,17 +181,17 @@ Eigen::MatrixXd AddWarming(const Fit& fit, const Inference& inference, const Log
 /// Whether a weight may act on the joint that the fit has no part for. A map over the position holds it.
 bool MayCarryWeight(const Fit& fit, const FittedModel& model, const LogSamples& m) {
   const bool mapped = std::ranges::find(model.mapped, MapQuantity::position) != model.mapped.end();
-  return m.joint == JointKind::rotary && !fit.gravity && !mapped && !m.position_integrated &&
+  return m.joint == JointKind::rotary && !fit.model.gravity && !mapped && !m.position_integrated &&
          m.position.allFinite();
 }
 
 /// The columns of the fit's gravity, as a sine, and of its inertia. [N x r]
 Eigen::MatrixXd RigidColumns(const Fit& fit, const LogSamples& m) {
   Eigen::MatrixXd columns(m.size(), 0);
-  if (fit.gravity && fit.gravity->kind == GravityKind::sincos) {
+  if (fit.model.gravity && fit.model.gravity->kind == GravityKind::sincos) {
     columns = GravityColumns(GravityKind::sincos, {}, m.position);
   }
-  return fit.inertia && m.acceleration ? ConcatColumns(columns, *m.acceleration) : columns;
+  return fit.model.inertia && m.acceleration ? ConcatColumns(columns, *m.acceleration) : columns;
 }
 
 /// The Jacobian's columns of the estimated rows of the table with a role. [N x m]
@@ -202,7 +202,7 @@ Eigen::MatrixXd ByRole(const Fit& fit, Role role) {
     if (row.estimated && row.role == role) columns.push_back(column);
     column += row.estimated;
   }
-  return fit.jacobian()(Eigen::all, columns);
+  return fit.rows.jacobian()(Eigen::all, columns);
 }
 
 }  // namespace
@@ -228,7 +228,7 @@ Eigen::MatrixXd NominalDerivatives(const Law& law, const std::vector<double>& va
 Eigen::MatrixXd NominalDerivatives(const Fit& fit, const Eigen::VectorXd& velocity,
                                    const std::optional<Eigen::VectorXd>& load) {
   Eigen::MatrixXd derivatives =
-      NominalDerivatives(*FindLaw(fit.friction.law), LawValues(fit.friction), velocity);
+      NominalDerivatives(*FindLaw(fit.model.friction.law), LawValues(fit.model.friction), velocity);
   const PartFit grows = fit.RowOf(Role::load) ? PartFit::estimated : PartFit::none;
   return WithLoad(std::move(derivatives), grows, velocity, load);
 }
@@ -236,7 +236,7 @@ Eigen::MatrixXd NominalDerivatives(const Fit& fit, const Eigen::VectorXd& veloci
 std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& inference,
                                          const LogSamples& m, const Selection& selection) {
   if (fit.refusal) return std::nullopt;
-  const Law& law = *FindLaw(fit.friction.law);
+  const Law& law = *FindLaw(fit.model.friction.law);
 
   // the residual of the fit
   FittedModel model;
@@ -244,18 +244,18 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   if (m.size() > 1) model.step = MedianStep(m.time);
   model.has_bristle = law.pre_sliding == PreSliding::bristle;
   model.torque = m.torque;
-  if (fit.gravity) TakeOff(*fit.gravity, m.position, model);
-  if (fit.inertia) model.torque -= *fit.inertia * *m.acceleration;
-  if (fit.inertia_torque.size() > 0) model.torque -= fit.inertia_torque;
-  if (fit.torque_lag) model.torque -= fit.torque_lag->adds;
-  if (fit.fields) model.torque -= fit.fields->rest;
+  if (fit.model.gravity) TakeOff(*fit.model.gravity, m.position, model);
+  if (fit.model.inertia) model.torque -= *fit.model.inertia * *m.acceleration;
+  if (fit.rows.inertia_torque.size() > 0) model.torque -= fit.rows.inertia_torque;
+  if (fit.model.lag) model.torque -= fit.rows.by_lag;
+  if (fit.figures.fields) model.torque -= fit.figures.fields->rest;
   const Prediction prediction =
-      AlongMotion(fit.friction).Predict(TrajectoryFor(fit, m), fit.Start());
+      AlongMotion(fit.model.friction).Predict(TrajectoryFor(fit, m), fit.Start());
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
-  if (!fit.friction.maps.empty())
-    model.maps = MapForce(law, LawValues(fit.friction), m, prediction);
-  for (const FrictionMap& map : fit.friction.maps) {
+  if (!fit.model.friction.maps.empty())
+    model.maps = MapForce(law, LawValues(fit.model.friction), m, prediction);
+  for (const FrictionMap& map : fit.model.friction.maps) {
     for (const MapAxis& axis : map.axes) model.mapped.push_back(axis.quantity);
   }
 
@@ -267,24 +267,24 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   // the derivatives of the model by the fit's parameters
   model.rows = RowsOf(
       fit, {Role::law, Role::load, Role::gain, Role::time_constant, Role::start, Role::gravity});
-  if (fit.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
+  if (fit.model.inertia) model.rows.push_back(*fit.RowOf(Role::inertia));
   model.cold = NominalDerivatives(fit, m.velocity, m.load);
   model.derivatives = model.cold;
-  const bool knows_warming = fit.friction.thermal && fit.RowOf(Role::gain);
+  const bool knows_warming = fit.model.friction.thermal && fit.RowOf(Role::gain);
   Eigen::MatrixXd by_jumps(m.size(), 0);
   if (knows_warming) by_jumps = AddWarming(fit, inference, m, model);
   model.of_friction = model.derivatives.cols();
   // gravity's few values join the parameters. The many of `paired` do not: they take up all that depends on position
   // in the same way in both directions, over which the other features average out
-  if (fit.gravity && fit.gravity->kind != GravityKind::paired) {
+  if (fit.model.gravity && fit.model.gravity->kind != GravityKind::paired) {
     // where friction grows with the load, gravity acts through the friction, too; the fit's own Jacobian includes that
-    const bool by_fit = fit.RowOf(Role::load) && fit.jacobian;
-    model.derivatives =
-        ConcatColumns(model.derivatives,
-                      by_fit ? ByRole(fit, Role::gravity)
-                             : GravityColumns(fit.gravity->kind, fit.gravity->knots, m.position));
+    const bool by_fit = fit.RowOf(Role::load) && fit.rows.jacobian;
+    model.derivatives = ConcatColumns(
+        model.derivatives,
+        by_fit ? ByRole(fit, Role::gravity)
+               : GravityColumns(fit.model.gravity->kind, fit.model.gravity->knots, m.position));
   }
-  if (fit.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
+  if (fit.model.inertia) model.derivatives = ConcatColumns(model.derivatives, *m.acceleration);
   if (fit.RowOf(Role::delay)) by_jumps = ConcatColumns(by_jumps, ByRole(fit, Role::delay));
   if (by_jumps.cols() > 0) model.derivatives = ConcatColumns(model.derivatives, by_jumps);
   return model;

@@ -44,7 +44,7 @@ struct FittedModel {
 
 /// Whether a fit has a field of that kind.
 inline bool HasField(const Fit& fit, FieldKind kind) {
-  return fit.fields && fit.fields->present.Has(kind);
+  return fit.figures.fields && fit.figures.fields->present.Has(kind);
 }
 
 /// dFn/dp of a law at speeds, by central differences where it is not linear in p. values: [d] p; velocity: [N] rad/s or m/s;

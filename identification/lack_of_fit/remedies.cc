@@ -41,7 +41,7 @@ constexpr double kOfAMotor =
 
 /// What a model holds already, whoever fitted it: the advice for `auto` is not to try what it chose.
 bool HasMap(const Advice& advice, MapQuantity quantity) {
-  return std::ranges::any_of(advice.fit.friction.maps, [=](const FrictionMap& map) {
+  return std::ranges::any_of(advice.fit.model.friction.maps, [=](const FrictionMap& map) {
     return FindAxis(map, quantity) != nullptr;
   });
 }
@@ -50,12 +50,12 @@ bool HasWarming(const Advice& advice) { return advice.fit.RowOf(Role::gain).has_
 /// To try a command, with the gravity and the lag of the torque that the fit has, where that identifier can estimate them.
 Remedy Try(const Advice& advice, IdentifyCommand command, std::string words = "") {
   const Options& options = FindIdentifier(command.identifier).options;
-  if (advice.fit.gravity && options.Has("gravity")) {
-    const bool sincos = advice.fit.gravity->kind == GravityKind::sincos;
+  if (advice.fit.model.gravity && options.Has("gravity")) {
+    const bool sincos = advice.fit.model.gravity->kind == GravityKind::sincos;
     command = command.With("gravity", sincos ? "sincos" : "paired");
   }
   // a lag with a law without map over position
-  if (advice.fit.torque_lag && options.Has("torque_lag") && !command.Sets("position")) {
+  if (advice.fit.model.lag && options.Has("torque_lag") && !command.Sets("position")) {
     command = command.With("torque_lag", "estimated");
   }
   return {std::move(words), std::move(command)};
@@ -78,7 +78,7 @@ double DurationOf(const Advice& advice) {
 
 /// Whether the law has a curve over speed.
 bool HasCurve(const Advice& advice) {
-  return advice.fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
+  return advice.fit.model.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
 }
 
 /// The warming that a fit holds, as an option's word.
@@ -86,7 +86,7 @@ const char* WarmingOf(const Advice& advice) { return HasWarming(advice) ? "estim
 
 /// Kernels of the first axis over a quantity; 0 where there is none.
 size_t KernelsOver(const Advice& advice, MapQuantity quantity) {
-  for (const FrictionMap& map : advice.fit.friction.maps) {
+  for (const FrictionMap& map : advice.fit.model.friction.maps) {
     if (const MapAxis* axis = FindAxis(map, quantity)) return axis->kernels.size();
   }
   return 0;
@@ -108,8 +108,8 @@ std::vector<int> GearsOfRipple(const Advice& advice) {
   const double strongest = 2 * std::numbers::pi / advice.finding.period;
   if (m.joint != JointKind::rotary || KnowsMotorAngle(m)) return {};
   if (!(strongest >= kOfAMotor) || !std::isfinite(strongest)) return {};
-  const Selection& used = advice.fit.used;
-  const Eigen::VectorXd residual = advice.fit.residual();
+  const Selection& used = advice.fit.rows.used;
+  const Eigen::VectorXd residual = advice.fit.rows.residual();
   if (used.keep.size() != m.size() || used.count() != residual.size()) return {};
   return GearsOf(Kept(m.position, used), Kept(m.velocity, used), residual, MedianStep(m.time));
 }
@@ -144,7 +144,8 @@ Remedy RemedyForWarming(const Advice& advice) {
       return Try(advice, warm.With("position", "motor"));
     }
     if (HasMap(advice, MapQuantity::position)) return Try(advice, warm.With("position", "map"));
-    if (HasCurve(advice)) return Try(advice, CurveCommand(advice.fit.friction.law, "estimated"));
+    if (HasCurve(advice))
+      return Try(advice, CurveCommand(advice.fit.model.friction.law, "estimated"));
     return Try(advice, warm);
   }
 
@@ -171,7 +172,7 @@ Remedy RemedyForSpeed(const Advice& advice) {
   if (HasMap(advice, MapQuantity::position)) {
     return Try(advice, WithMap(advice, MapQuantity::position).With("basis", "velocity"));
   }
-  return Try(advice, CurveCommand(advice.fit.friction.law, WarmingOf(advice)));
+  return Try(advice, CurveCommand(advice.fit.model.friction.law, WarmingOf(advice)));
 }
 
 Remedy RemedyForWarmingSlope(const Advice& advice) {
@@ -179,12 +180,12 @@ Remedy RemedyForWarmingSlope(const Advice& advice) {
     return {kRecordMoreWarmUps};
   }
   // with a map over position, the map over energy has to follow the slope too
-  return Try(advice, {advice.fit.friction.maps.empty() ? "lpv-energy" : "energy-map"});
+  return Try(advice, {advice.fit.model.friction.maps.empty() ? "lpv-energy" : "energy-map"});
 }
 
 /// What to try where a law with a curve misses something that turns with the direction.
 Remedy RemedyForDirectionOfACurve(const Advice& advice) {
-  const Friction& friction = advice.fit.friction;
+  const Friction& friction = advice.fit.model.friction;
   if (HasLevelForEachDirection(friction.law)) {
     // heat is common to both
     return {HasWarming(advice) ? kLawHasBothLevels : RemedyForBothLevels()};
@@ -214,7 +215,7 @@ Remedy RemedyForDirection(const Advice& advice) {
   // first a law with a level for each direction, where the identifier has one
   const bool can = advice.identifier.options.Has("law");
   const bool mapped = HasMap(advice, MapQuantity::position);
-  if (can && advice.fit.friction.law != "asymmetric" && !advice.fit.gravity) {
+  if (can && advice.fit.model.friction.law != "asymmetric" && !advice.fit.model.gravity) {
     const IdentifyCommand command =
         IdentifyCommand{advice.identifier.name}.With("law", "asymmetric");
     const bool warm_map = mapped && HasWarming(advice);
@@ -222,7 +223,7 @@ Remedy RemedyForDirection(const Advice& advice) {
   }
 
   // then a force in one direction of whatever kind, which paired gravity takes up
-  if (!mapped && !advice.fit.gravity) {
+  if (!mapped && !advice.fit.model.gravity) {
     const IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
     return {kPushesInOneDirection, command.With("gravity", "paired")};
   }
@@ -239,14 +240,14 @@ Remedy RemedyForLoad(const Advice& advice) {
   if (HasMap(advice, MapQuantity::load)) {
     return {kMoreThanLoad};
   }
-  const bool may_grow = advice.fit.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
-                        IsLinear(*FindLaw(advice.fit.friction.law));
+  const bool may_grow = advice.fit.model.friction.maps.empty() && !advice.fit.RowOf(Role::load) &&
+                        IsLinear(*FindLaw(advice.fit.model.friction.law));
   // a load that the fit took from its gravity is not a column of the log
   const bool is_logged = advice.input.log.raw().measurements.load.has_value();
   if (!may_grow && !is_logged) return Try(advice, WithMap(advice, MapQuantity::position));
   if (!may_grow) return Try(advice, {"load-map"});
   const std::string_view like = advice.fit.RowOf(Role::gain) ? "energy-ml" : "nominal-ls";
-  return Try(advice, LinearCommand(like, advice.fit.friction.law).With("load", "estimated"));
+  return Try(advice, LinearCommand(like, advice.fit.model.friction.law).With("load", "estimated"));
 }
 
 Remedy RemedyForTemperature(const Advice&) { return {kSteadyTemperature}; }
@@ -267,14 +268,16 @@ Remedy RemedyForPeriod(const Advice& advice) {
 }
 
 Remedy RemedyForLag(const Advice& advice) {
-  const Law& law = *FindLaw(advice.fit.friction.law);
+  const Law& law = *FindLaw(advice.fit.model.friction.law);
   // a lag is estimated with linear laws only, without maps and inertia
-  const bool can = IsLinear(law) && advice.fit.friction.maps.empty() && !advice.fit.inertia;
+  const bool can =
+      IsLinear(law) && advice.fit.model.friction.maps.empty() && !advice.fit.model.inertia;
   const bool asked = AsksForLag(advice.input.options);
   // holds are free of the lag some time constants after they began
   const double trim = RoundedUp(kSettledAfter * advice.finding.lag);
-  const std::string cut = advice.fit.inertia || !(trim > 0) ? kShiftTorque : RemedyByTrim(trim);
-  if (!can || asked || advice.fit.torque_lag) return {AskForLateTorque(cut)};
+  const std::string cut =
+      advice.fit.model.inertia || !(trim > 0) ? kShiftTorque : RemedyByTrim(trim);
+  if (!can || asked || advice.fit.model.lag) return {AskForLateTorque(cut)};
   IdentifyCommand command{HasWarming(advice) ? "energy-ml" : "nominal-ls"};
   if (law.name != "viscous_coulomb") command = command.With("law", law.name);
   return Try(advice, command.With("torque_lag", "estimated"), AskForLateTorqueOr(cut));

@@ -125,12 +125,14 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
 
   // the model after the lag
   Append({WithValue(LagUnknown(UnitsOf(m)), rows->lag())}, fit);
-  fit.torque = measured;
-  fit.fitted = lagged + rows->Decaying(held);
-  fit.torque_lag = FittedLag{rows->lag(), AtSamples(fit.fitted - torque, runs, m.size())};
+  fit.rows.torque = measured;
+  fit.rows.fitted = lagged + rows->Decaying(held);
+  fit.model.lag = rows->lag();
+  fit.rows.by_lag = AtSamples(fit.rows.fitted - torque, runs, m.size());
 
   // its derivatives by all estimated values, orthogonal to what runs begin with
-  fit.jacobian = [rows, of_model = std::move(fit.jacobian), torque, held, all = m.size()] {
+  fit.rows.jacobian = [rows, of_model = std::move(fit.rows.jacobian), torque, held,
+                       all = m.size()] {
     const KeptRuns& kept = *rows->runs();
     MatrixXd columns =
         ConcatColumns(rows->Lagged(AtKept(of_model(), kept)), ByLogarithm(*rows, torque, held));
@@ -139,7 +141,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   };
 
   // and the errors of the estimated values; the lag has no prior
-  ErrorModel& errors = fit.errors;
+  ErrorModel& errors = fit.rows.errors;
   errors.AddFree();
   errors.whitening = rows->whitening();
   errors.cofactor = CofactorOf(fit);
@@ -148,9 +150,9 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   const auto samples = static_cast<double>(runs.count());
   const auto begun = static_cast<double>(runs.run_count());
   const double grown = std::sqrt(samples / std::max(samples - begun, 1.0));
-  if (!errors.whitening) errors.scores = grown * fit.residual();
-  ++fit.count;
-  fit.effective_parameters += 1 + begun;
+  if (!errors.whitening) errors.scores = grown * fit.rows.residual();
+  ++fit.rows.count;
+  fit.rows.effective_parameters += 1 + begun;
 }
 
 }  // namespace warmjoint

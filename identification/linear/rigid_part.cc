@@ -129,14 +129,14 @@ void AddRigid(const RigidPart& rigid, const Eigen::VectorXd& values, const LogSa
               Fit& fit) {
   const Eigen::Index q = rigid.gravity_count();
   if (q > 0) {
-    fit.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
-    fit.gravity_by_rows = rigid.transform;
+    fit.model.gravity = GravityModel{rigid.kind, rigid.knots, rigid.transform * values.head(q)};
+    fit.rows.gravity = rigid.transform;
     Append(WithValues(GravityUnknowns(rigid.kind, q, UnitsOf(measurements)), values.head(q)), fit);
   }
   if (!measurements.acceleration) return;
   // without a column it is given, as 0
-  fit.inertia = rigid.inertia ? values[q] : 0;
-  Unknown row = WithValue(InertiaUnknown(UnitsOf(measurements)), *fit.inertia);
+  fit.model.inertia = rigid.inertia ? values[q] : 0;
+  Unknown row = WithValue(InertiaUnknown(UnitsOf(measurements)), *fit.model.inertia);
   row.estimated = row.has_interval = rigid.inertia;
   Append({row}, fit);
 }

@@ -87,12 +87,13 @@ void AddBands(const IdentifierInput& input, const MapTask& task, const MapFit& m
   MakeBands(law, problem, maps, uncertainty, fit);
   WidenUnresolved(maps.maps.front(), input.measurements,
                   StudentQuantile(uncertainty.degrees_of_freedom, kIntervalLevel),
-                  fit.bands.front());
-  fit.friction_at_speeds = FrictionAtSpeeds(law, maps, uncertainty, problem.points);
+                  fit.figures.bands.front());
+  fit.figures.friction_at_speeds = FrictionAtSpeeds(law, maps, uncertainty, problem.points);
   // friction that is below 0 beyond doubt, in the mean over its places
-  const auto drives = std::ranges::find_if(
-      fit.friction_at_speeds, [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
-  if (drives != fit.friction_at_speeds.end()) {
+  const auto drives =
+      std::ranges::find_if(fit.figures.friction_at_speeds,
+                           [](const FrictionAtSpeed& one) { return one.interval95[1] < 0; });
+  if (drives != fit.figures.friction_at_speeds.end()) {
     fit.causes.push_back(Invalidate(Status::inadequate_model,
                                     ExplainDrivingFriction(*drives, input.measurements, fit)));
   }
@@ -221,20 +222,20 @@ Fit ModelOf(const IdentifierInput& input, const MapTask& task, const MapFit& map
   // the law, and the maps next to it
   Fit fit;
   fit.identifier = task.identifier;
-  fit.friction = FrictionOf(law, maps.law(), m);
-  fit.friction.maps = maps.maps;
+  fit.model.friction = FrictionOf(law, maps.law(), m);
+  fit.model.friction.maps = maps.maps;
   AddLaw(law, maps, m, fit);
   AddRigid(task.rigid, maps.rigid(), m, fit);
 
   // how well they fit
-  fit.used = input.selection;
-  fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = maps.fitted + TorqueOfEnergy(input, task.energy);
-  fit.count = static_cast<int>(maps.x.size());
-  fit.effective_parameters = maps.effective;
+  fit.rows.used = input.selection;
+  fit.rows.torque = Kept(m.torque, fit.rows.used);
+  fit.rows.fitted = maps.fitted + TorqueOfEnergy(input, task.energy);
+  fit.rows.count = static_cast<int>(maps.x.size());
+  fit.rows.effective_parameters = maps.effective;
   fit.summary = SummaryOfMaps({.law = law.name,
                                .maps = maps.maps,
-                               .samples = fit.torque.size(),
+                               .samples = fit.rows.torque.size(),
                                .strength = maps.strength,
                                .effective = maps.effective});
   if (HoldsGravity(input, task, maps)) {
@@ -258,7 +259,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
           const Uncertainty& uncertainty) {
   if (!uncertainty.covariance.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, maps);
-  fit.errors.covariance = [of_table = OfTable(uncertainty, maps)] { return of_table; };
+  fit.rows.errors.covariance = [of_table = OfTable(uncertainty, maps)] { return of_table; };
   if (task.settings.bands == MapBands::none || !GivesFriction(fit)) return fit;
   AddBands(input, task, maps, uncertainty, fit);
   // what a motor's map shows, which comes first
@@ -273,7 +274,7 @@ Fit AsFit(const IdentifierInput& input, const MapTask& task, const MapFit& maps,
 Fit AsSketch(const IdentifierInput& input, const MapTask& task, MapChoice choice) {
   if (!choice.fit.inverse.allFinite()) return Refused(task.identifier, Unsolvable());
   Fit fit = ModelOf(input, task, choice.fit);
-  fit.errors.covariance = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
+  fit.rows.errors.covariance = [kept = std::make_shared<const MapChoice>(std::move(choice))] {
     return OfTable(MapCovariance(kept->problem, kept->fit), kept->fit);
   };
   return fit;

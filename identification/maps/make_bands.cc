@@ -276,10 +276,10 @@ void MakeBands(const Law& law, const MapProblem& problem, const MapFit& maps,
   size_t first = 0;
   for (size_t which = 0; which < maps.maps.size(); ++which) {
     const FrictionMap& map = maps.maps[which];
-    MapBand& band = fit.bands.emplace_back();
+    MapBand& band = fit.figures.bands.emplace_back();
     const MapPoints places = PlacesOfBand(map, speed, kept, band);
     const Eigen::MatrixXd rows = RowsAt(law, maps, which, places, means);
-    fit.bands_by_law.push_back(rows.leftCols(static_cast<Index>(law.parameters.size())));
+    fit.figures.bands_by_law.push_back(rows.leftCols(static_cast<Index>(law.parameters.size())));
     // friction at each place, and its variance by the errors of law and weights
     const Eigen::VectorXd value = rows * maps.x;
     Eigen::VectorXd variance = (rows * covariance).cwiseProduct(rows).rowwise().sum().cwiseMax(0);

@@ -65,14 +65,14 @@ double Range(const Eigen::VectorXd& x) { return x.maxCoeff() - x.minCoeff(); }
 Eigen::VectorXd EnergyOf(const MapTask& task, const MapFit& maps, const Fit& warm,
                          const LogSamples& measurements) {
   Friction friction = FrictionOf(*task.law, maps.law(), measurements);
-  friction.thermal = warm.friction.thermal;
+  friction.thermal = warm.model.friction.thermal;
   friction.maps = maps.maps;
   return PredictFriction(friction, measurements, warm.Start()).energy;
 }
 
 /// The rows of the heat as the first fit estimates them, without intervals.
 std::vector<Unknown> HeatOf(const Fit& warm, const LogSamples& m) {
-  std::vector<Unknown> rows = HeatParameters(*warm.friction.thermal, m);
+  std::vector<Unknown> rows = HeatParameters(*warm.model.friction.thermal, m);
   std::ranges::copy_if(warm.parameters, std::back_inserter(rows), [](const Unknown& row) {
     return row.role == Role::start || row.role == Role::jump;
   });
@@ -83,23 +83,23 @@ std::vector<Unknown> HeatOf(const Fit& warm, const LogSamples& m) {
 /// Adds the warming, which has no column of its own, and checks the friction against its own heat.
 Fit Complete(const Fit& warm, int rounds, const LogSamples& m, Fit fit) {
   // gain, time constant and start of the warming stay as the fit without these maps has them
-  fit.friction.thermal = warm.friction.thermal;
-  fit.initial_energy = warm.initial_energy;
-  fit.jump_samples = warm.jump_samples;
+  fit.model.friction.thermal = warm.model.friction.thermal;
+  fit.start.energy = warm.start.energy;
+  fit.start.jump_samples = warm.start.jump_samples;
   if (!GivesFriction(fit)) return fit;
   const std::vector<Unknown> heat = HeatOf(warm, m);
   Append(heat, fit);
   // friction that drives the joint by its own heat is not a valid model
-  const Prediction prediction = PredictFriction(fit.friction, m, fit.Start());
+  const Prediction prediction = PredictFriction(fit.model.friction, m, fit.Start());
   if (prediction.first_driving < m.size()) {
     return Refused(fit.identifier, Status::inadequate_model,
                    ExplainDriving(m.time[prediction.first_driving], kFewerKernels));
   }
 
   // the torque is compared with the model with that heat
-  fit.fitted = Kept(prediction.force, fit.used);
-  fit.count += static_cast<int>(heat.size());
-  fit.effective_parameters += static_cast<double>(heat.size());
+  fit.rows.fitted = Kept(prediction.force, fit.rows.used);
+  fit.rows.count += static_cast<int>(heat.size());
+  fit.rows.effective_parameters += static_cast<double>(heat.size());
   fit.causes.push_back(Note(ExplainMapsOverEnergy(rounds), SentenceIn::message));
   return fit;
 }
@@ -110,7 +110,7 @@ Fit FitOverEnergy(const IdentifierInput& input, MapTask task, const Fit* warm,
                   const MapMaker& maker) {
   const LogSamples& m = input.measurements;
   // the energy that the fit without these maps predicts
-  if (warm) task.energy = PredictFriction(warm->friction, m, warm->Start()).energy;
+  if (warm) task.energy = PredictFriction(warm->model.friction, m, warm->Start()).energy;
   task.candidates = maker(Kept(PointsOf(m, task.energy), input.selection));
 
   // until the fitted friction predicts the energy that it was fitted with
@@ -138,7 +138,7 @@ Fit FitBehindLaw(const std::string& name, const IdentifierInput& input, const Ma
   Fit warm = FitLaw(name, input, PartFit::estimated);
   if (!GivesFriction(warm)) return warm;
   const MapTask task = MakeMapTask(input, name);
-  std::optional<Thermal>& thermal = warm.friction.thermal;
+  std::optional<Thermal>& thermal = warm.model.friction.thermal;
   if (model.heat_of_all) thermal = model.heat_of_all(input, *task.law, *thermal);
   return FitOverEnergy(input, task, &warm, model.over_energy);
 }

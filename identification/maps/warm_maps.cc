@@ -47,15 +47,15 @@ Uncertainty WithoutWeights(Uncertainty uncertainty, const MapFit& maps) {
 void AddHeat(const WarmMaps& warm, const Uncertainty& uncertainty, const LogSamples& measurements,
              Fit& fit) {
   const ThermalFit& warming = warm.warming;
-  fit.friction.thermal = warming.thermal();
-  fit.initial_energy = warming.initial_energy();
-  fit.jump_samples = Behind(warm.gaps);
+  fit.model.friction.thermal = warming.thermal();
+  fit.start.energy = warming.initial_energy();
+  fit.start.jump_samples = Behind(warm.gaps);
   // rows of the heat, with errors that law, maps and warming share
   const std::vector<Unknown> rows = HeatTable(warming, warm.gaps, measurements);
   Append(rows, fit);
-  fit.errors.covariance = [table = WithoutWeights(uncertainty, warm.fit)] { return table; };
-  fit.count += static_cast<int>(rows.size());
-  fit.effective_parameters += static_cast<double>(rows.size());
+  fit.rows.errors.covariance = [table = WithoutWeights(uncertainty, warm.fit)] { return table; };
+  fit.rows.count += static_cast<int>(rows.size());
+  fit.rows.effective_parameters += static_cast<double>(rows.size());
   fit.causes.insert(fit.causes.begin(),
                     Note(ExplainWarmingBesideMaps(warm.joint->iterations()), SentenceIn::message));
   RemarkOnHeat(warming, warm.gaps, measurements, fit);
@@ -128,13 +128,15 @@ Fit AsFit(const IdentifierInput& input, const WarmMaps& warm) {
   }
   AddHeat(warm, uncertainty, m, fit);
   const Eigen::VectorXd of_end = warm.joint->EndSlopes();
-  fit.end_energy_std = std::sqrt(of_end.dot(uncertainty.covariance * of_end));
+  fit.figures.end_energy_std = std::sqrt(of_end.dot(uncertainty.covariance * of_end));
   if (!GivesFriction(fit)) return fit;
   // a friction that drives the joint by its own heat is not a valid model
   const FittedGravity gravity = input.options.OrDefault<GravityOption>().gravity;
-  if (const auto at = PredictFriction(fit.friction, m, fit.Start()).first_driving; at < m.size()) {
-    return Refused(name, Status::inadequate_model,
-                   ExplainDriving(m.time[at], RemedyForNonDissipative(fit.friction.law, gravity)));
+  if (const auto at = PredictFriction(fit.model.friction, m, fit.Start()).first_driving;
+      at < m.size()) {
+    return Refused(
+        name, Status::inadequate_model,
+        ExplainDriving(m.time[at], RemedyForNonDissipative(fit.model.friction.law, gravity)));
   }
   return fit;
 }

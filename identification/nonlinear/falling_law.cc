@@ -81,7 +81,7 @@ std::vector<Iterate> ScanTrace(const FallingLaw& law, double exponent,
 void SetFallingModel(const FallingLaw& law, double exponent, const FallingPlaces& at,
                      const Eigen::VectorXd& x, const LogSamples& measurements, Fit& fit) {
   const Eigen::VectorXd values = law.values(x, exponent);
-  fit.friction = FrictionOf(law.law, values, measurements);
+  fit.model.friction = FrictionOf(law.law, values, measurements);
   fit.parameters = WithValues(LawUnknowns(law.law, values.size(), UnitsOf(measurements)), values);
   // vs is fitted by its logarithm; an exponent, which follows the rows that are in x, was given
   fit.parameters[at.log_vs()].coordinate = Coordinate::logarithm;
@@ -89,8 +89,8 @@ void SetFallingModel(const FallingLaw& law, double exponent, const FallingPlaces
     given.estimated = false;
   }
   if (at.heat == 0) return;
-  fit.friction.thermal = at.ThermalAt(x);
-  Append(HeatParameters(*fit.friction.thermal, measurements), fit);
+  fit.model.friction.thermal = at.ThermalAt(x);
+  Append(HeatParameters(*fit.model.friction.thermal, measurements), fit);
 }
 
 }  // namespace warmjoint

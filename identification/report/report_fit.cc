@@ -271,11 +271,11 @@ void Carry(const Inference& inference, const Eigen::RowVectorXd& by_law, double&
 
 /// Bands along maps, by the law that is reported.
 std::vector<MapBand> BandsOf(const Fit& fit, const Inference& inference) {
-  std::vector<MapBand> bands = fit.bands;
+  std::vector<MapBand> bands = fit.figures.bands;
   for (size_t b = 0; b < bands.size(); ++b) {
     MapBand& band = bands[b];
     for (size_t g = 0; g < band.value.size(); ++g) {
-      Carry(inference, fit.bands_by_law[b].row(static_cast<Eigen::Index>(g)), band.value[g],
+      Carry(inference, fit.figures.bands_by_law[b].row(static_cast<Eigen::Index>(g)), band.value[g],
             band.interval95[g]);
     }
   }
@@ -291,8 +291,8 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   // E of both stages at the end of the log: by the fit's own recursion, or along the motion
   Eigen::Vector2d end;
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2, inference.uncertainty.covariance.rows());
-  if (fit.end_energy) {
-    const EndEnergy own = fit.end_energy();
+  if (fit.figures.end_energy) {
+    const EndEnergy own = fit.figures.end_energy();
     end = {own.value, 0};
     slopes.row(0).head(own.slopes.size()) = own.slopes;
   } else {
@@ -301,7 +301,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
   // a verdict may have changed parameters
   const bool is_as_fitted = std::ranges::equal(inference.parameters, fit.parameters, {},
                                                &ParameterInterval::value, &Unknown::value);
-  if (!fit.end_energy || !is_as_fitted) end = EndAlong(m, friction, fit.Start());
+  if (!fit.figures.end_energy || !is_as_fitted) end = EndAlong(m, friction, fit.Start());
   const FigureErrors errors = ErrorsBySlopes(fit, inference, slopes);
 
   // when, and a row for each stage
@@ -312,9 +312,10 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
     EstimatedParameter one{
         stage == 0 ? "energy" : "second_energy", end[stage], m.torque_unit, {}, {}};
     // the error is from the fit where its table lacks something that E depends on, else from the parameters
-    const double deviation =
-        fit.end_energy_std.value_or(std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
-    const bool has_interval = fit.end_energy_std ? HasIntervals(inference) : errors.has_intervals;
+    const double deviation = fit.figures.end_energy_std.value_or(
+        std::sqrt(std::max(0.0, errors.covariance(stage, stage))));
+    const bool has_interval =
+        fit.figures.end_energy_std ? HasIntervals(inference) : errors.has_intervals;
     if (has_interval && std::isfinite(deviation)) {
       one.std = deviation;
       const double half = reach * deviation;
@@ -330,7 +331,7 @@ std::vector<EstimatedParameter> EndState(const Fit& fit, const Inference& infere
 }
 
 Friction ReportedFriction(const Fit& fit, const Inference& inference) {
-  Friction friction = fit.friction;
+  Friction friction = fit.model.friction;
   for (size_t i = 0; i < fit.parameters.size(); ++i) {
     const Unknown& row = fit.parameters[i];
     if (IsNominal(row.role)) *row.PlaceIn(friction) = inference.parameters[i].value;
@@ -381,8 +382,9 @@ Estimate ReportFit(const Fit& fit, const Inference& inference, const LogSamples&
   // the numbers
   estimate.parameters = ParametersOf(fit, shown, h);
   estimate.half_widths = HalfWidths(fit, inference);
-  estimate.metrics = ComputeMetrics(fit.torque, fit.fitted, fit.count, fit.effective_parameters);
-  estimate.gravity = fit.gravity;
+  estimate.metrics = ComputeMetrics(fit.rows.torque, fit.rows.fitted, fit.rows.count,
+                                    fit.rows.effective_parameters);
+  estimate.gravity = fit.model.gravity;
   if (!shown.gives_friction) return estimate;
 
   // and the friction and gravity, which other programs can use

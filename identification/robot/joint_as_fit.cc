@@ -89,18 +89,18 @@ Fit FitOf(const JointFit& fit, const JointColumns& c, const ModelSamples& sample
   Fit made;
   made.identifier = "robot";
   made.summary = SummaryOfJoint(fit, c);
-  made.friction = FrictionValue(fit, c);
-  made.used = {samples.keep, {}};
-  made.torque = Kept(samples.torque, made.used);
-  made.fitted = made.torque - Kept(fit.solved.residual, made.used);
+  made.model.friction = FrictionValue(fit, c);
+  made.rows.used = {samples.keep, {}};
+  made.rows.torque = Kept(samples.torque, made.rows.used);
+  made.rows.fitted = made.rows.torque - Kept(fit.solved.residual, made.rows.used);
   for (Index row = 0; row < fit.model.size(); ++row) {
     made.parameters.push_back(ParameterOf(fit, row));
   }
-  made.count = static_cast<int>(fit.model.size());
-  made.effective_parameters = fit.effective_parameters;
-  made.jacobian = [&fit] { return ModelAt(fit.model, fit.solved.x).All().derivatives; };
-  made.errors.covariance = [uncertainty = fit.uncertainty] { return uncertainty; };
-  if (fit.model.heat) made.end_energy = [&fit] { return EndOf(fit); };
+  made.rows.count = static_cast<int>(fit.model.size());
+  made.rows.effective_parameters = fit.effective_parameters;
+  made.rows.jacobian = [&fit] { return ModelAt(fit.model, fit.solved.x).All().derivatives; };
+  made.rows.errors.covariance = [uncertainty = fit.uncertainty] { return uncertainty; };
+  if (fit.model.heat) made.figures.end_energy = [&fit] { return EndOf(fit); };
   return made;
 }
 

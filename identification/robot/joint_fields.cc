@@ -43,9 +43,9 @@ VectorXd TorqueOf(const Model& model, const VectorXd& x, const Friction& frictio
 FitForFields ForFields(const JointFit& fit, const JointColumns& c, const ModelSamples& samples) {
   const auto kept = std::make_shared<const JointFit>(fit);
   FitForFields at{.fit = FitOf(*kept, c, samples), .motion = SamplesOf(*kept, c)};
-  at.fit.jacobian = [kept] { return ModelAt(kept->model, kept->solved.x).All().derivatives; };
+  at.fit.rows.jacobian = [kept] { return ModelAt(kept->model, kept->solved.x).All().derivatives; };
   at.torque_of = [kept](const Fit& of, const LogSamples& m) {
-    return TorqueOf(kept->model, UnknownsOf(of), of.friction, m);
+    return TorqueOf(kept->model, UnknownsOf(of), of.model.friction, m);
   };
   at.prior_mean = kept->model.PriorMean();
   at.prior_precision = kept->model.PriorPrecision();
@@ -63,7 +63,7 @@ Fit WithFields(const JointFit& fit, const JointColumns& c, const ModelSamples& s
     return ForFields(next, c, less);
   };
   Fit made = WithFieldsAbout(ForFields(fit, c, samples), fields, again);
-  made.inertia.reset();  // the rotor's, a row of the table
+  made.model.inertia.reset();  // the rotor's, a row of the table
   return made;
 }
 
@@ -72,13 +72,14 @@ Fit WithFields(const JointFit& fit, const JointColumns& c, const ModelSamples& s
 void AddFields(const JointColumns& c, const FieldSet& fields, JointFit& fit) {
   if (fields.kinds.empty()) return;
   Fit made = WithFields(fit, c, c.samples, fields);
-  if (!made.fields) return;
+  if (!made.figures.fields) return;
   const VectorXd torque =
-      TorqueOf(fit.model, UnknownsOf(made), made.friction, SamplesOf(fit, c)) + made.fields->rest;
-  fit.uncertainty = made.errors.covariance();
-  fit.effective_parameters = made.effective_parameters;
+      TorqueOf(fit.model, UnknownsOf(made), made.model.friction, SamplesOf(fit, c)) +
+      made.figures.fields->rest;
+  fit.uncertainty = made.rows.errors.covariance();
+  fit.effective_parameters = made.rows.effective_parameters;
   fit.solved.x = UnknownsOf(made);
-  fit.solved.noise = NoiseScaleOf(made.residual());
+  fit.solved.noise = NoiseScaleOf(made.rows.residual());
   fit.solved.residual = c.samples.torque - torque;
   made.parameters[static_cast<std::size_t>(fit.At(Role::scale).begin)].has_interval =
       KnowsGain(fit);
@@ -91,8 +92,8 @@ VectorXd PredictedBy(const JointFit& fit, const JointColumns& c, const ModelSamp
   const VectorXd table = samples.torque - again.solved.residual;
   if (!fit.fields) return table;
   const Fit made = WithFields(again, c, samples, fit.fields->asked);
-  if (!made.fields) return table;
-  return TorqueOf(fit.model, UnknownsOf(made), made.friction, SamplesOf(again, c));
+  if (!made.figures.fields) return table;
+  return TorqueOf(fit.model, UnknownsOf(made), made.model.friction, SamplesOf(again, c));
 }
 
 VectorXd FrictionOfMaps(const Friction& friction, const LogSamples& m) {

@@ -36,7 +36,7 @@ JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
   std::erase_if(friction.blocks, [](const auto& block) { return !block->MakesHeat(); });
   const ModelRows rows = ModelAt(friction, fit.solved.x).All();
   VectorXd fitted = rows.force;
-  if (fit.fields) fitted += FrictionOfMaps(fit.fields->fit.friction, SamplesOf(fit, c));
+  if (fit.fields) fitted += FrictionOfMaps(fit.fields->fit.model.friction, SamplesOf(fit, c));
   return {.time = c.samples.time,
           .velocity = c.velocity,
           .measured = fitted + fit.solved.residual,
@@ -198,7 +198,8 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
   JointSeries series = SeriesOf(fit, c);
   Inference by_noise = ByNoise(made);
   std::vector<Cause> causes = OwnCauses(made, by_noise);
-  by_noise.at_speeds = SpeedFiguresOf(made, Apply(by_noise, causes), std::nullopt, m, made.used);
+  by_noise.at_speeds =
+      SpeedFiguresOf(made, Apply(by_noise, causes), std::nullopt, m, made.rows.used);
   std::ranges::move(CausesOf(fit, c, series, holdout, summary.gain_is_known),
                     std::back_inserter(causes));
   if (auto floor = UnknownFriction(by_noise.at_speeds, causes)) causes.push_back(std::move(*floor));

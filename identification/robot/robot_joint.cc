@@ -364,8 +364,8 @@ JointFit Concluded(const JointColumns& c, const JointQuestion& q, JointFit cold,
   const bool rivals = !warm || q.fields.Has(FieldKind::time_friction);
   if (rivals) AddFields(c, q.fields, cold);
   const bool compared = warm && warm->fields && cold.fields;
-  const bool warms =
-      warm && (!compared || warm->fields->fit.fields->cost < cold.fields->fit.fields->cost);
+  const bool warms = warm && (!compared || warm->fields->fit.figures.fields->cost <
+                                               cold.fields->fit.figures.fields->cost);
   JointFit fit = warms ? *std::move(warm) : std::move(cold);
   fit.description_error = DescriptionErrorOf(fit, q);
   FindBeyond(c, q, fit);

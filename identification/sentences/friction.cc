@@ -13,8 +13,8 @@ namespace {
 
 /// A question about what may act on the joint in addition to the friction of a fit.
 std::string_view BesideFriction(const Fit& fit) {
-  return fit.gravity ? "do other joints move, or is a sign or a unit wrong?"
-                     : "is there gravity (--gravity sincos), or a wrong sign or unit?";
+  return fit.model.gravity ? "do other joints move, or is a sign or a unit wrong?"
+                           : "is there gravity (--gravity sincos), or a wrong sign or unit?";
 }
 
 /// "inertia is -0.1 kg.m^2, below 0 with its whole 95 % interval, -0.2 to -0.05"

@@ -33,9 +33,10 @@ std::string_view LinearLike(const Fit& fit) { return Warms(fit) ? "energy-ml" : 
 /// What to try against friction that falls with speed: what the fit has of curve and warming is not
 /// named again.
 std::string RemedyForFallingSlope(const Fit& fit) {
-  const std::string& law = fit.friction.law;
+  const std::string& law = fit.model.friction.law;
   // whether the law has a Stribeck curve already
-  const bool curved = fit.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
+  const bool curved =
+      fit.model.friction.parameters.contains(std::string(kStribeckVelocityRow.name));
   const bool warms = Warms(fit);
   if (curved && warms) {
     return "friction falls with speed beyond the law's curve and its warming: record higher speeds";
@@ -57,14 +58,15 @@ std::string RemedyForBound(const Unknown& parameter, const Fit& fit) {
   // neither slope nor level: a linear law may do without it
   if (parameter.part != LawPart::level) {
     return fmt::format("try --identifier {}",
-                       LinearCommand(LinearLike(fit), fit.friction.law).Text());
+                       LinearCommand(LinearLike(fit), fit.model.friction.law).Text());
   }
   // gravity is fitted already, which leaves the sign as a cause
-  const std::string torque = fit.gravity ? "is the sign of the torque"
-                                         : fmt::format(
-                                               "does the torque hold gravity or another load (try "
-                                               "--identifier {} --gravity paired), or is its sign",
-                                               LinearLike(fit));
+  const std::string torque = fit.model.gravity
+                                 ? "is the sign of the torque"
+                                 : fmt::format(
+                                       "does the torque hold gravity or another load (try "
+                                       "--identifier {} --gravity paired), or is its sign",
+                                       LinearLike(fit));
   return fmt::format("a negative level would push the joint: {} reversed (--scale torque=-1)?",
                      torque);
 }
@@ -82,15 +84,15 @@ std::string ExplainHeld(const std::vector<Excess>& held) {
 
 std::string ExplainExcess(const Excess& excess, const Fit& fit) {
   return fmt::format("{}: law {} does not describe these data; {}", Describe(excess),
-                     fit.friction.law, RemedyForBound(excess.parameter, fit));
+                     fit.model.friction.law, RemedyForBound(excess.parameter, fit));
 }
 
 std::string ExplainRiseFromRest(const Fit& fit) {
-  const std::string& law = fit.friction.law;
+  const std::string& law = fit.model.friction.law;
   return fmt::format(
       "{}: friction rises from rest with speed, where law {} lets it fall; try --identifier {} "
       "--set law={}",
-      fit.friction.parameters.contains(std::string(kStaticRiseRow.name))
+      fit.model.friction.parameters.contains(std::string(kStaticRiseRow.name))
           ? "static_rise is below 0"
           : "static is below coulomb",
       law, LinearLike(fit), HasLevelForEachDirection(law) ? "asymmetric" : "viscous_coulomb");

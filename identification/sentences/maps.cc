@@ -87,7 +87,7 @@ std::string ExplainDrivingFriction(const FrictionAtSpeed& at, const LogSamples& 
       "the friction drives the joint: at {:.3g} {} it is {:.3g} {}; {} its sign reversed (--scale "
       "torque=-1)?",
       at.speed, kVelocityUnit.For(measurements.joint), at.value, measurements.torque_unit,
-      fit.gravity ? "is" : "does the torque hold gravity (--gravity sincos), or is");
+      fit.model.gravity ? "is" : "does the torque hold gravity (--gravity sincos), or is");
 }
 
 std::string ExplainHoles(const std::vector<std::string>& holes) {

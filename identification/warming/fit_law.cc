@@ -288,13 +288,13 @@ std::vector<Iterate> TraceOf(const ThermalFit& warm, Eigen::Index n) {
 
 /// The rows and residuals from which the errors of a fit follow, for any loss. fit: with its Jacobian and residual
 void SetErrors(const LawFit& law, Fit& fit) {
-  fit.errors.prior = law.fit.prior;
-  fit.errors.cofactor = law.fit.cofactor;
-  fit.errors.whitening = law.whitening;
+  fit.rows.errors.prior = law.fit.prior;
+  fit.rows.errors.cofactor = law.fit.cofactor;
+  fit.rows.errors.whitening = law.whitening;
   if (std::isinf(law.threshold)) return;
   // with Huber's loss: plain columns and the scores of the loss
-  fit.errors.scores = HuberScores(fit.residual(), law.threshold);
-  fit.errors.cofactor = CofactorOf(fit);
+  fit.rows.errors.scores = HuberScores(fit.rows.residual(), law.threshold);
+  fit.rows.errors.cofactor = CofactorOf(fit);
 }
 
 /// What was done: a clause.
@@ -330,30 +330,30 @@ Fit Conclude(LawFit law) {
   if (fit.refusal) return fit;
 
   // the model
-  fit.friction = FrictionOf(law.problem.task().law, found.law(), m);
+  fit.model.friction = FrictionOf(law.problem.task().law, found.law(), m);
   // and how well it fits
-  fit.used = law.input().selection;
-  fit.torque = Kept(m.torque, fit.used);
-  fit.fitted = Kept(response.torque, fit.used);
-  fit.jacobian = [found] { return LawProblem::JacobianOf(found); };
+  fit.rows.used = law.input().selection;
+  fit.rows.torque = Kept(m.torque, fit.rows.used);
+  fit.rows.fitted = Kept(response.torque, fit.rows.used);
+  fit.rows.jacobian = [found] { return LawProblem::JacobianOf(found); };
   SetErrors(law, fit);
-  fit.count = static_cast<int>(found.x.size());
-  fit.effective_parameters = fit.count;
-  if (!std::isinf(law.threshold)) fit.loss_bend = law.threshold;
+  fit.rows.count = static_cast<int>(found.x.size());
+  fit.rows.effective_parameters = fit.rows.count;
+  if (!std::isinf(law.threshold)) fit.rows.loss_bend = law.threshold;
   fit.summary = Summary(law);
 
   // the heat
   if (found.has_heat()) {
-    fit.friction.thermal = found.thermal();
-    fit.initial_energy = found.initial_energy();
-    fit.jump_samples = found.model->heat->jump_samples;
-    fit.end_energy = [found] { return EndOf(found); };
+    fit.model.friction.thermal = found.thermal();
+    fit.start.energy = found.initial_energy();
+    fit.start.jump_samples = found.model->heat->jump_samples;
+    fit.figures.end_energy = [found] { return EndOf(found); };
     RemarkOnHeat(found, law.problem.gaps(), m, fit);
   }
 
   // structure in the residual
   if (law.unwhitened) {
-    const Eigen::VectorXd friction = Kept(response.force, fit.used);
+    const Eigen::VectorXd friction = Kept(response.force, fit.rows.used);
     fit.causes.push_back(StructureCause(*law.unwhitened, friction, fit));
   }
   // the lag, which is not part of the model of law and heat

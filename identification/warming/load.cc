@@ -21,9 +21,10 @@ constexpr double kArrived = 0.02;  // of the deviation that noise leaves the mea
 /// By how much the torque of a fit changes under another load, over the standard error of its mean: rms of the kept samples.
 double ChangeOf(const Fit& fit, const VectorXd& load, const VectorXd& before) {
   const VectorXd change =
-      fit.friction.load_gain * Kept(load.cwiseAbs() - before.cwiseAbs(), fit.used);
-  const double noise = fit.residual().squaredNorm() / static_cast<double>(change.size());
-  return noise > 0 ? std::sqrt(change.squaredNorm() / noise) : change.norm() / fit.torque.norm();
+      fit.model.friction.load_gain * Kept(load.cwiseAbs() - before.cwiseAbs(), fit.rows.used);
+  const double noise = fit.rows.residual().squaredNorm() / static_cast<double>(change.size());
+  return noise > 0 ? std::sqrt(change.squaredNorm() / noise)
+                   : change.norm() / fit.rows.torque.norm();
 }
 
 /// The columns of gravity act through the friction, too.
@@ -37,13 +38,13 @@ void AddLoadOfGravity(const VectorXd& load, const LogSamples& m, Fit& fit) {
   }
   const VectorXd by_load =
       VectorXd::Ones(m.size()) +
-      fit.friction.load_gain * load.cwiseSign().cwiseProduct(m.velocity.cwiseSign());
-  fit.jacobian = [of_model = std::move(fit.jacobian), columns, by_load] {
+      fit.model.friction.load_gain * load.cwiseSign().cwiseProduct(m.velocity.cwiseSign());
+  fit.rows.jacobian = [of_model = std::move(fit.rows.jacobian), columns, by_load] {
     Eigen::MatrixXd rows = of_model();
     for (const Index i : columns) rows.col(i).array() *= by_load.array();
     return rows;
   };
-  fit.errors.cofactor = CofactorOf(fit);
+  fit.rows.errors.cofactor = CofactorOf(fit);
 }
 
 }  // namespace
@@ -64,7 +65,7 @@ Fit FitUnderLoad(const IdentifierInput& given, const FitInTime& fit_under) {
   LogView view{given.measurements, given.selection};
   VectorXd load = VectorXd::Zero(given.measurements.size());
   for (int round = 0; round < kMostRounds && !fit.refusal; ++round) {
-    VectorXd next = fit.gravity->Torque(given.measurements.position);
+    VectorXd next = fit.model.gravity->Torque(given.measurements.position);
     const bool rests = round > 0 && ChangeOf(fit, next, load) <= kArrived;
     if (rests) {
       AddLoadOfGravity(load, given.measurements, fit);

@@ -140,30 +140,33 @@ VectorXd ByShape(const Fit& fit, const IdentifierInput& given, double delay, dou
 
 /// The rows of a fit, followed by the column of the delay, as the fit solved them. [n x p + 1]
 MatrixXd RowsOf(const Fit& fit, const VectorXd& by_delay) {
-  MatrixXd rows = ConcatColumns(Kept(fit.jacobian(), fit.used), Kept(by_delay, fit.used));
-  return fit.errors.whitening ? fit.errors.whitening->Of(rows) : rows;
+  MatrixXd rows =
+      ConcatColumns(Kept(fit.rows.jacobian(), fit.rows.used), Kept(by_delay, fit.rows.used));
+  return fit.rows.errors.whitening ? fit.rows.errors.whitening->Of(rows) : rows;
 }
 
 /// The delay as one more unknown of a fit that was made at it.
 void AddDelay(double delay, const VectorXd& by_delay, const LogSamples& m, Fit& fit) {
-  fit.torque_delay = delay;
+  fit.model.delay = delay;
   Append({WithValue(DelayUnknown(UnitsOf(m)), delay)}, fit);
-  fit.jacobian = [of_model = std::move(fit.jacobian), by_delay] {
+  fit.rows.jacobian = [of_model = std::move(fit.rows.jacobian), by_delay] {
     return ConcatColumns(of_model(), by_delay);
   };
-  fit.errors.AddFree();
-  fit.errors.cofactor = CofactorOf(fit);
-  ++fit.count;
-  fit.effective_parameters += 1;
+  fit.rows.errors.AddFree();
+  fit.rows.errors.cofactor = CofactorOf(fit);
+  ++fit.rows.count;
+  fit.rows.effective_parameters += 1;
 }
 
 /// Whether a fit with a delay leaves less of the samples that both used than another: by more than so many variances of the noise,
 /// as coloured as it is.
 bool Improves(const Fit& late, const Fit& other, double variances) {
   if (other.refusal) return true;
-  const VectorXd both = (late.used.keep && other.used.keep).cast<double>();
-  const double with = AmongAll(late.residual(), late.used, 0).cwiseProduct(both).squaredNorm();
-  const double without = AmongAll(other.residual(), other.used, 0).cwiseProduct(both).squaredNorm();
+  const VectorXd both = (late.rows.used.keep && other.rows.used.keep).cast<double>();
+  const double with =
+      AmongAll(late.rows.residual(), late.rows.used, 0).cwiseProduct(both).squaredNorm();
+  const double without =
+      AmongAll(other.rows.residual(), other.rows.used, 0).cwiseProduct(both).squaredNorm();
   const double variance = with / std::max(both.sum(), 1.0);
   const double inflation = CovarianceOf(late).noise.variance_inflation;
   return without - with > variances * variance * inflation;
@@ -173,7 +176,7 @@ bool Improves(const Fit& late, const Fit& other, double variances) {
 Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
   Cause cause{.source = Source::late_torque,
               .action = Action::widen,
-              .sentence = ExplainUntoldDelay(*late.torque_delay, step)};
+              .sentence = ExplainUntoldDelay(*late.model.delay, step)};
   for (size_t i = 0; i < in_time.parameters.size(); ++i) {
     const Unknown& row = in_time.parameters[i];
     const auto other = std::ranges::find(late.parameters, row.name, &Unknown::name);
@@ -186,8 +189,8 @@ Cause UntoldDelay(const Fit& late, const Fit& in_time, double step) {
 /// By how much a fit with a delay is biased where a filter makes the torque late, of first order at most: the log does not
 /// determine the shape. rows: RowsOf the fit; shape: [N] ByShape
 Cause UntoldShape(const Fit& fit, const MatrixXd& rows, const VectorXd& shape) {
-  VectorXd force = Kept(shape, fit.used);
-  if (fit.errors.whitening) force = fit.errors.whitening->Of(force);
+  VectorXd force = Kept(shape, fit.rows.used);
+  if (fit.rows.errors.whitening) force = fit.rows.errors.whitening->Of(force);
   const VectorXd bias = SolveLeastSquares(rows, force).solution;
   Cause cause{.source = Source::late_torque, .action = Action::widen};
   Index column = 0;
@@ -204,7 +207,7 @@ bool IsLate(const Fit& fit) {
   if (!fit.RowOf(Role::delay)) return false;
   // the last of the estimated rows
   const Uncertainty uncertainty = CovarianceOf(fit);
-  return std::abs(*fit.torque_delay) >
+  return std::abs(*fit.model.delay) >
          kCertain * uncertainty.Deviation(uncertainty.covariance.rows() - 1);
 }
 
@@ -225,8 +228,8 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
     // the Gauss-Newton step of all unknowns and of the delay
     const VectorXd by_delay = ByDelay(fit, given, *delay, step);
     const MatrixXd rows = RowsOf(fit, by_delay);
-    VectorXd left = fit.residual();
-    if (fit.errors.whitening) left = fit.errors.whitening->Of(left);
+    VectorXd left = fit.rows.residual();
+    if (fit.rows.errors.whitening) left = fit.rows.errors.whitening->Of(left);
     const LeastSquares change = SolveLeastSquares(rows, left);
     // the motion does not distinguish it from the other unknowns
     if (change.solution.size() == 0) break;
@@ -252,7 +255,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
         in_time.causes.push_back(UntoldDelay(fit, in_time, step));
         return in_time;
       }
-      fit.causes.push_back(Note(ExplainDelay(*fit.torque_delay, step)));
+      fit.causes.push_back(Note(ExplainDelay(*fit.model.delay, step)));
       fit.causes.push_back(UntoldShape(fit, rows, ByShape(fit, given, *delay, step)));
     }
     return fit;
@@ -261,7 +264,7 @@ Fit FitBehindDelay(const IdentifierInput& given, const FitInTime& fit_in_time) {
 }
 
 void TakeDelay(double delay, const LogSamples& m, Fit& fit) {
-  fit.torque_delay = delay;
+  fit.model.delay = delay;
   fit.causes.push_back(Note(ExplainDelay(delay, MedianStep(m.time))));
 }
 

@@ -53,20 +53,20 @@ Eigen::Index MedianHold(const Selection& selection) {
 }
 
 Colour ColourOf(const Fit& fit) {
-  const Eigen::VectorXd residual = fit.residual();
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(fit.used.keep.size());
+  const Eigen::VectorXd residual = fit.rows.residual();
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(fit.rows.used.keep.size());
   for (Eigen::Index i = 0, row = 0; i < all.size(); ++i) {
-    if (fit.used.keep[i]) all[i] = residual[row++];
+    if (fit.rows.used.keep[i]) all[i] = residual[row++];
   }
   double differences = 0, pairs = 0, products = 0, far_pairs = 0;
-  const Eigen::Index hold = MedianHold(fit.used);
+  const Eigen::Index hold = MedianHold(fit.rows.used);
   for (Eigen::Index i = 1; i < all.size(); ++i) {
-    if (!fit.used.keep[i]) continue;
-    if (fit.used.keep[i - 1]) {
+    if (!fit.rows.used.keep[i]) continue;
+    if (fit.rows.used.keep[i - 1]) {
       differences += std::pow(all[i] - all[i - 1], 2);
       ++pairs;
     }
-    if (hold > 0 && i >= hold && fit.used.keep[i - hold]) {
+    if (hold > 0 && i >= hold && fit.rows.used.keep[i - hold]) {
       products += all[i] * all[i - hold];
       ++far_pairs;
     }

@@ -115,7 +115,7 @@ std::optional<double> ErrorOn(const PreparedLog& log, const Truth& truth, const 
   if (fit.refusal) return std::nullopt;
   const LogView& view = log.constant_speed();
   const TorquePrediction predicted =
-      PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
+      PredictTorque(fit.model, view.measurements, view.selection, fit.Start());
   // a view has samples of its own at reversals, which the truth does not know
   const Eigen::VectorXd force =
       PredictFriction(truth.friction, view.measurements, {truth.initial_energy}).force;
@@ -125,8 +125,8 @@ std::optional<double> ErrorOn(const PreparedLog& log, const Truth& truth, const 
 
 /// The map over position, which stands last beside one over the motor's angle; nullptr where there is none.
 const FrictionMap* PositionMapOf(const Fit& fit) {
-  if (fit.friction.maps.empty()) return nullptr;
-  const FrictionMap& map = fit.friction.maps.back();
+  if (fit.model.friction.maps.empty()) return nullptr;
+  const FrictionMap& map = fit.model.friction.maps.back();
   return map.axes[0].quantity == MapQuantity::position ? &map : nullptr;
 }
 
@@ -155,8 +155,8 @@ Eigen::VectorXd ForceAt(Friction friction, const MapBand& band, Measurements at)
 void CountBands(const Fit& fit, const Simulation& recording, const LogView& view,
                 Outcomes& outcomes) {
   const FrictionMap* map = PositionMapOf(fit);
-  if (!map || fit.bands.empty() || map->axes.size() < 2) return;
-  const MapBand& band = fit.bands.back();
+  if (!map || fit.figures.bands.empty() || map->axes.size() < 2) return;
+  const MapBand& band = fit.figures.bands.back();
   const Eigen::VectorXd truth = ForceAt(recording.truth.friction, band, recording.measurements);
   const std::vector<bool> unseen =
       UnseenKernels({*map}, Kept(PointsOf(view.measurements), view.selection));

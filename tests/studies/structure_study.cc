@@ -51,9 +51,9 @@ const std::map<std::string, std::pair<std::string, Given>> kRight{
 /// Mean squared errors of a fit's prediction on blocks of another log; nothing where it predicts nothing.
 std::optional<Eigen::VectorXd> ErrorsOn(const PreparedLog& log, const Fit& fit) {
   if (fit.refusal) return std::nullopt;
-  const LogView& view = fit.inertia ? log.moving() : log.constant_speed();
+  const LogView& view = fit.model.inertia ? log.moving() : log.constant_speed();
   const TorquePrediction predicted =
-      PredictTorque(ModelOf(fit), view.measurements, view.selection, fit.Start());
+      PredictTorque(fit.model, view.measurements, view.selection, fit.Start());
   const std::vector<Eigen::Index> bounds = CutIntoBlocks(view.selection, kBlocks);
   const Eigen::ArrayXd squares = (view.measurements.torque - predicted.torque).array().square();
   Eigen::VectorXd errors(kBlocks);

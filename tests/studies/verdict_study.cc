@@ -92,9 +92,10 @@ double LeastSquaresOf(Fit fit, const LogSamples& m, const Selection& selection) 
     for (size_t i = 0; i < model->rows.size(); ++i) {
       Unknown& row = fit.parameters[model->rows[i]];
       row.value += move[static_cast<Eigen::Index>(i)];
-      if (row.role == Role::law) fit.friction.parameters[row.name] = row.value;
-      if (row.name == "thermal_gain") fit.friction.thermal->gain = row.value;
-      if (row.name == "thermal_time_constant") fit.friction.thermal->time_constant = row.value;
+      if (row.role == Role::law) fit.model.friction.parameters[row.name] = row.value;
+      if (row.name == "thermal_gain") fit.model.friction.thermal->gain = row.value;
+      if (row.name == "thermal_time_constant")
+        fit.model.friction.thermal->time_constant = row.value;
     }
   }
   return least;

@@ -41,7 +41,7 @@ std::optional<FitView> ViewHeldOut(const Estimate& estimate, const PreparedLog& 
   const auto first = FitFirstPart(*identifier, input, HoldOutSource{}.fraction, all_data);
   if (!first) return std::nullopt;
   const PreparedLog before = log.Before(first->split);
-  const LogView& fitted = SeenByModel(first->fit.inertia, identifier->view, before);
+  const LogView& fitted = SeenByModel(first->fit.model.inertia, identifier->view, before);
   Estimate made = ReportFit(first->fit, Infer(first->fit), before, fitted.measurements);
   if (!made.friction) return std::nullopt;
 

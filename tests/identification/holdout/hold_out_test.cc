@@ -34,15 +34,15 @@ Fit KnowTableOne(const IdentifierInput& input) {
   shown = input.measurements.size();
   EXPECT_EQ(input.selection.keep.size(), shown);
   Fit fit;
-  fit.friction = test::TableOne();
-  fit.errors.covariance = [] { return Uncertainty{}; };
+  fit.model.friction = test::TableOne();
+  fit.rows.errors.covariance = [] { return Uncertainty{}; };
   return fit;
 }
 const Identifier kKnowing{"knowing", "", {}, &KnowTableOne};
 
 Fit KnowThatItStartedWarm(const IdentifierInput& input) {
   Fit fit = KnowTableOne(input);
-  fit.initial_energy = -6;
+  fit.start.energy = -6;
   return fit;
 }
 
@@ -78,7 +78,7 @@ TEST(HoldOut, StartsAsWarmAsTheFitSaysAndComesToTheTestPartWarm) {
 TEST(HoldOut, JumpsAtGapsAsTheFitSays) {
   const auto identify = [](const IdentifierInput& input) {
     Fit fit = KnowTableOne(input);
-    fit.jump_samples = {100};
+    fit.start.jump_samples = {100};
     fit.parameters = {WithValue(JumpUnknown(NameOf(Role::jump), UnitsOf(input.measurements)), -2)};
     fit.parameters[0].estimated = false;
     return fit;

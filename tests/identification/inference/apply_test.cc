@@ -171,7 +171,7 @@ struct Judged {
   Judged(const char* law, const std::vector<double>& values) {
     const Eigen::Map<const Eigen::VectorXd> x(values.data(),
                                               static_cast<Eigen::Index>(values.size()));
-    fit.friction = FrictionOf(*FindLaw(law), x, {});
+    fit.model.friction = FrictionOf(*FindLaw(law), x, {});
     fit.parameters = WithValues(LawUnknowns(*FindLaw(law), x.size(), UnitsOf({})), x);
     inference.message = "fitted";
     for (const double value : values) {

@@ -103,11 +103,11 @@ Fit LevelFit() {
     noise[i] = 0.1 * ((i * 7919 + i * i * 31) % 97 < 48 ? -1 : 1);
   }
   fit.parameters = {WithValue({.name = "coulomb", .unit = "N.m"}, 15)};
-  fit.used.keep = decltype(fit.used.keep)::Constant(n, true);
-  fit.fitted = 15 * sign;
-  fit.torque = fit.fitted + noise;
-  fit.jacobian = [sign] { return Eigen::MatrixXd(sign); };
-  fit.errors.cofactor = Eigen::MatrixXd::Constant(1, 1, 1.0 / static_cast<double>(n));
+  fit.rows.used.keep = decltype(fit.rows.used.keep)::Constant(n, true);
+  fit.rows.fitted = 15 * sign;
+  fit.rows.torque = fit.rows.fitted + noise;
+  fit.rows.jacobian = [sign] { return Eigen::MatrixXd(sign); };
+  fit.rows.errors.cofactor = Eigen::MatrixXd::Constant(1, 1, 1.0 / static_cast<double>(n));
   return fit;
 }
 
@@ -116,7 +116,7 @@ Disagreement MovedBy(double difference) { return {0, 9, Eigen::VectorXd::Constan
 TEST(StructureCause, LetsIntervalsReachAsFarAsTheWhitenedFit) {
   Fit fit = LevelFit();
   const Inference before = Infer(fit);
-  fit.causes.push_back(StructureCause(MovedBy(0.2), fit.fitted, fit));
+  fit.causes.push_back(StructureCause(MovedBy(0.2), fit.rows.fitted, fit));
   const Inference inference = Infer(fit);
   EXPECT_EQ(inference.warnings.size(), 1u);
   const ParameterInterval& coulomb = inference.parameters[0];
@@ -131,16 +131,16 @@ TEST(StructureCause, LetsIntervalsReachAsFarAsTheWhitenedFit) {
 
 TEST(StructureCause, IsOfTheValueOfALogarithm) {
   Fit fit = LevelFit();
-  const Cause of_value = StructureCause(MovedBy(0.01), fit.fitted, fit);
+  const Cause of_value = StructureCause(MovedBy(0.01), fit.rows.fitted, fit);
   fit.parameters[0].coordinate = Coordinate::logarithm;
-  const Cause of_logarithm = StructureCause(MovedBy(0.01), fit.fitted, fit);
+  const Cause of_logarithm = StructureCause(MovedBy(0.01), fit.rows.fitted, fit);
   EXPECT_DOUBLE_EQ(of_logarithm.spread(0, 0), 15 * of_value.spread(0, 0));
 }
 
 TEST(StructureCause, GivesNoIntervalsWhereItMovesTheFrictionByATenth) {
   // J d is 1.55 N.m of 15 everywhere, 10.3 %
   Fit fit = LevelFit();
-  fit.causes.push_back(StructureCause(MovedBy(1.55), fit.fitted, fit));
+  fit.causes.push_back(StructureCause(MovedBy(1.55), fit.rows.fitted, fit));
   EXPECT_FALSE(HasIntervals(Infer(fit)));
 }
 

@@ -150,7 +150,7 @@ Across FitAndTry(const PreparedLog& log, const PreparedLog& other,
   const Identifier& identifier = FindIdentifier("position-ridge");
   const Options options = identifier.options.Read(given);
   const Fit fit = identifier.fit({log, options, {}});
-  const GaussianAxis& axis = fit.friction.maps.at(0).axes[0].kernels;
+  const GaussianAxis& axis = fit.model.friction.maps.at(0).axes[0].kernels;
   const double rmse = HoldOut(identifier, fit, other).metrics->rmse;
   return {axis.size(), axis.width / (axis.centres[1] - axis.centres[0]), rmse * rmse};
 }
