@@ -17,7 +17,7 @@
 #include "identification/maps/map_blocks.h"
 #include "identification/sentences/friction.h"
 #include "identification/sentences/maps.h"
-#include "identification/warming/fit_law.h"
+#include "identification/warming/law_fit.h"
 #include "identification/warming/warming_verdict.h"
 #include "models/foundation/robust_noise.h"
 

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "identification/fit/fit.h"
 #include "identification/fit/identifier.h"
 #include "identification/options.h"
-#include "identification/warming/thermal_fit.h"
 
 namespace warmjoint {
 
@@ -20,15 +18,5 @@ namespace warmjoint {
 /// not_identifiable where the motion does not distinguish the columns, or where the warm-up cannot be seen: its share of
 /// the residual is not beyond chance, or tau is not known to better than a factor of about e. name: of the identifier
 Fit FitLaw(const std::string& name, const IdentifierInput& given, PartFit heat);
-
-/// Rows of the table for the heat: gain, time constant, E(0) where it was estimated, jumps. gaps: of the jumps [J],
-/// further starts among them
-std::vector<Unknown> HeatTable(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                               const LogSamples& measurements);
-
-/// Notes with a fit what is uncertain about its heat: losses within gaps of the log, and how warm the joint was as further
-/// recordings began where that of the first alone was expected.
-void RemarkOnHeat(const ThermalFit& warm, const std::vector<LogGap>& gaps,
-                  const LogSamples& measurements, Fit& fit);
 
 }  // namespace warmjoint
