@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "models/foundation/random_stream.h"
 
 namespace warmjoint {
 namespace {
@@ -39,6 +42,33 @@ TEST(Minimise, TakesTheLastStepThoughSquaresAreFlatToRounding) {
   const Minimum found = Minimise(Bowl(beside), Eigen::Vector2d(3 + 1e-6, -1));
   EXPECT_TRUE(found.converged);
   EXPECT_NEAR(found.x[0], 3, 1e-12);
+}
+
+TEST(Minimise, LeavesUnknownsExactlyAtTheirBounds) {
+  // squares about points of which one coordinate lies below its bound, with unknowns of all scales
+  RandomStream random({5, 0}, Stream::test);
+  for (int trial = 0; trial < 200; ++trial) {
+    MatrixXd rows(8, 5);
+    for (double& one : rows.reshaped()) one = random.Normal();
+    for (int i = 0; i < 5; ++i) rows.col(i) *= std::pow(10, 6 * random.Uniform() - 3);
+    const MatrixXd gram = rows.transpose() * rows;
+    VectorXd free(5);
+    for (double& one : free) one = random.Normal();
+    free[2] = -1 / rows.col(2).norm();
+    SquaresProblem problem{.sums = [&](const VectorXd& x) {
+      const VectorXd left = free - x;
+      return RowSums{gram, gram * left, left.dot(gram * left)};
+    }};
+    problem.lower = VectorXd::Constant(5, -1e9);
+    problem.upper = VectorXd::Constant(5, 1e9);
+    problem.lower[2] = 0;
+    VectorXd start = free;
+    start[2] = 0;
+    const Minimum found = Minimise(problem, start);
+    ASSERT_TRUE(found.converged) << trial;
+    ASSERT_EQ(found.x[2], 0) << trial;
+    ASSERT_EQ(found.at_bound, std::vector<Eigen::Index>{2}) << trial;
+  }
 }
 
 TEST(Minimise, HasNotConvergedOnWhatIsNoNumber) {
