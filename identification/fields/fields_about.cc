@@ -122,21 +122,11 @@ std::optional<double> ByTemperature(const SolvedFields& solved) {
   return (values[values.size() - 1] - values[0]) / (at[at.size() - 1] - at[0]);
 }
 
-/// Conditions a posterior on rows of the law that are at their bounds. columns: of x; report: [p x p + m]; fit: with the values that it
-/// reports without that
-void Condition(const std::vector<Index>& columns, const MatrixXd& report, const Fit& fit,
-               FieldPosterior& posterior) {
-  std::vector<const Unknown*> estimated;
-  for (const Unknown& row : fit.parameters) {
-    if (row.estimated) estimated.push_back(&row);
-  }
-  VectorXd gaps(std::ssize(columns));
-  for (size_t i = 0; i < columns.size(); ++i) {
-    const Unknown& row = *estimated[static_cast<size_t>(columns[i])];
-    gaps[static_cast<Index>(i)] = std::clamp(row.value, row.lower, row.upper) - row.value;
-  }
-  const MatrixXd of = report(columns, Eigen::all);
+/// Conditions a posterior on rows of the law that are at their bounds. report: [p x p + m]
+void Condition(const LeftByNoise& left, const MatrixXd& report, FieldPosterior& posterior) {
+  const MatrixXd of = report(left.columns, Eigen::all);
   const MatrixXd pull = posterior.covariance * of.transpose();
+  const Eigen::Map<const VectorXd> gaps(left.gaps.data(), std::ssize(left.gaps));
   posterior.mean += pull * (of * pull).ldlt().solve(gaps);
 }
 
@@ -214,7 +204,7 @@ Fit Conclude(const Round& round) {
   fit.rows.errors.covariance = [uncertainty] { return uncertainty; };
   // what noise puts beyond the bounds of the law
   if (auto left = FindLeftByNoise(fit, ByNoise(fit))) {
-    Condition(left->columns, figures.report(), fit, solved.posterior);
+    Condition(*left, figures.report(), solved.posterior);
     torque = TorqueAt(round, solved);
     fit.rows.fitted = Kept(torque, fit.rows.used);
     Cause held = HoldAt(figures.Reported(), left->columns, fit);

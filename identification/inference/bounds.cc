@@ -92,7 +92,7 @@ Model BoundedRows(const std::vector<Unknown>& table) {
   std::ranges::copy_if(table, std::back_inserter(rows.table), &Unknown::estimated);
   for (Unknown& row : rows.table) {
     if (IsNominal(row.role)) continue;
-    row.lower = row.coordinate == Coordinate::logarithm ? 0 : -kInfinity;
+    row.lower = -kInfinity;
     row.upper = kInfinity;
   }
   return rows;
@@ -160,13 +160,12 @@ std::optional<LeftByNoise> FindLeftByNoise(const Fit& fit, const Inference& by_n
   const std::vector<Excess> outside = ExcessesOf(fit, by_noise);
   const auto by_chance = [](const Excess& one) { return one.interval95 && !one.beyond; };
   if (outside.empty() || !std::ranges::all_of(outside, by_chance)) return std::nullopt;
-  LeftByNoise left{{}, ExplainHeld(outside)};
-  Eigen::Index column = 0;
-  for (const Unknown& row : fit.parameters) {
-    if (!row.estimated) continue;
-    const auto same = [&](const Excess& one) { return &one.parameter == &row; };
-    if (std::ranges::any_of(outside, same)) left.columns.push_back(column);
-    ++column;
+  LeftByNoise left{{}, {}, ExplainHeld(outside)};
+  for (const Excess& one : outside) {
+    const Unknown* const row = &one.parameter;
+    left.columns.push_back(std::count_if(fit.parameters.data(), row,
+                                         [](const Unknown& before) { return before.estimated; }));
+    left.gaps.push_back(one.bound - row->value);
   }
   return left;
 }

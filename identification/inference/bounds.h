@@ -25,6 +25,7 @@ std::optional<Cause> BeyondBounds(const Fit& fit, const Inference& by_noise);
 /// Rows of the law that noise alone puts outside of their bounds.
 struct LeftByNoise {
   std::vector<Eigen::Index> columns;  // of x
+  std::vector<double> gaps;           // from the value of each to its bound
   std::string sentence;
 };
 /// Those of a fit, where each bound lies within the 95 % interval of its row; nothing where none is left, or one with the whole interval.
