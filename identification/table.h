@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,6 +84,12 @@ struct Slice {
   Eigen::Index begin = 0, size = 0;
 
   constexpr Eigen::Index end() const { return begin + size; }
+  /// Each of them. [size]
+  std::vector<Eigen::Index> Places() const {
+    std::vector<Eigen::Index> places(static_cast<std::size_t>(size));
+    std::iota(places.begin(), places.end(), begin);
+    return places;
+  }
   /// This part of a vector over x. [size]
   Eigen::VectorXd Of(const Eigen::VectorXd& x) const { return x.segment(begin, size); }
   /// The same to be written to.

@@ -99,12 +99,13 @@ Model ModelOf(const IdentifierInput& input, const MapTask& task, const MapBlock&
 WarmMapFit::WarmMapFit(const IdentifierInput& input, const MapTask& task, const MapBlock& block,
                        const WarmingBlock& warming)
     : selection_(input.selection),
-      penalty_(block.solver().penalty()),
       variance_(block.Squares() / static_cast<double>(input.selection.count())),
       model_(ModelOf(input, task, block, warming.fit())),
       samples_{.torque = input.measurements.torque, .keep = input.selection.keep},
       squares_(model_, samples_),
       x_(VectorXd::Zero(model_.size())) {
+  const Slice weights = At(Role::weight);
+  model_.groups = {{weights.Places(), block.solver().penalty() / variance_}};
   // the heat as the block has it
   const ThermalFit& heat = warming.fit();
   const Slice from = HeatOf(heat);
@@ -133,7 +134,7 @@ bool WarmMapFit::Refine(MapBlock& block) {
 
 void WarmMapFit::MinimiseUnder(const Conditions& conditions) {
   SquaresProblem problem;
-  problem.sums = [&](const VectorXd& x) { return At(x); };
+  problem.sums = [&](const VectorXd& x) { return squares_.At(x, variance_); };
   problem.step = [&](const MatrixXd& gram, const VectorXd& product, const VectorXd& x) {
     return StepUnder(conditions, gram, product, x);
   };
@@ -144,17 +145,6 @@ void WarmMapFit::MinimiseUnder(const Conditions& conditions) {
   iterations_ += static_cast<int>(found.trace.size()) - 1;
 }
 
-RowSums WarmMapFit::At(const VectorXd& x) {
-  RowSums sums = squares_.At(x, variance_);
-  // the weights' prior
-  const Slice at = At(Role::weight);
-  const VectorXd weights = at.Of(x), pulled = penalty_ * weights / variance_;
-  sums.gram.block(at.begin, at.begin, at.size, at.size) += penalty_ / variance_;
-  at.In(sums.product) -= pulled;
-  sums.squares += weights.dot(pulled);
-  return sums;
-}
-
 void WarmMapFit::HeatInto(ThermalFit& warming) const {
   const Slice to = HeatOf(warming);
   to.In(warming.x) = x_.tail(to.size);
@@ -163,14 +153,17 @@ void WarmMapFit::HeatInto(ThermalFit& warming) const {
 Uncertainty WarmMapFit::CovarianceOf(const MapFit& maps, const VectorXd& residual) {
   const KeptRows rows(model_, x_, samples_.keep);
   const VectorXd torque = Kept(samples_.torque, selection_);
-  // with independent weights, since with correlated ones the standard errors of gain and time constant would be wrong by a half
+  // with independent weights (WeightPrior), since with correlated ones the standard errors of gain and time constant would be wrong
+  // by a half
+  Model of_heat = model_;
+  of_heat.groups.clear();
   return warmjoint::CovarianceOf(
       {.rows = [&](Index first, Index last) { return rows.Between(first, last); },
-       .cofactor = Cofactor(variance_ * At(x_).gram),
+       .cofactor = Cofactor(variance_ * squares_.At(x_, variance_).gram),
        .residual = residual,
        .selection = selection_,
        .fitted = torque - residual,
-       .prior = variance_ * model_.PriorPrecision(),
+       .prior = variance_ * of_heat.PriorPrecision(),
        .pull = WeightPrior{squares_.OfData(x_).gram, maps.free(), maps.weights(), maps.strength,
                            maps.unseen}});
 }

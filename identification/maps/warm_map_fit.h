@@ -39,13 +39,10 @@ class WarmMapFit {
  private:
   /// From x_ on under conditions.
   void MinimiseUnder(const Conditions& conditions);
-  /// Over the variance, with the prior of the weights and what was known beforehand.
-  RowSums At(const Eigen::VectorXd& x);
 
   const Selection& selection_;
-  Eigen::MatrixXd penalty_;  // [q x q] s P
-  double variance_;          // about that of the noise, (N.m)^2 or N^2
-  Model model_;
+  double variance_;  // about that of the noise, (N.m)^2 or N^2
+  Model model_;      // with the prior of the weights as one of a group
   ModelSamples samples_;
   ModelSquares squares_;
   Eigen::VectorXd x_;  // [p]

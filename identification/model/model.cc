@@ -57,6 +57,11 @@ void LoadBlock::FillLosses(const VectorXd& x, ModelRows& rows) const {
   FillAlong(direction_.of_losses, x, rows);
 }
 
+GroupPrior Alike(Index first, Index second, double deviation) {
+  const double one = 1 / (deviation * deviation);
+  return {{first, second}, Eigen::Matrix2d{{one, -one}, {-one, one}}};
+}
+
 VectorXd Model::Start() const {
   VectorXd x(size());
   for (Index i = 0; i < size(); ++i) x[i] = table[static_cast<std::size_t>(i)].X();
@@ -69,12 +74,8 @@ Eigen::MatrixXd Model::PriorPrecision() const {
     const auto& prior = table[static_cast<std::size_t>(i)].prior;
     if (prior) precision(i, i) = 1 / (prior->deviation * prior->deviation);
   }
-  for (const auto& [first, second, deviation] : alike) {
-    const double one = 1 / (deviation * deviation);
-    precision(first, first) += one;
-    precision(second, second) += one;
-    precision(first, second) -= one;
-    precision(second, first) -= one;
+  for (const GroupPrior& group : groups) {
+    precision(group.places, group.places) += group.precision;
   }
   return precision;
 }

@@ -114,16 +114,18 @@ class LoadBlock : public Block {
   Directions direction_;
 };
 
-/// Two unknowns that are alike: their difference is N(0, deviation^2).
-struct Alike {
-  Eigen::Index first = 0, second = 0;  // places in the table
-  double deviation = 1;
+/// What is known of several unknowns together: they are N(0, precision^-1).
+struct GroupPrior {
+  std::vector<Eigen::Index> places;  // [q] in the table
+  Eigen::MatrixXd precision;         // [q x q]
 };
+/// Two unknowns that are alike: their difference is N(0, deviation^2). first, second: places in the table
+GroupPrior Alike(Eigen::Index first, Eigen::Index second, double deviation);
 
 /// A model of a torque.
 struct Model {
-  std::vector<Unknown> table;  // [P]
-  std::vector<Alike> alike;    // what is known in addition to the priors of the table
+  std::vector<Unknown> table;      // [P]
+  std::vector<GroupPrior> groups;  // what is known in addition to the priors of the table
   std::vector<std::shared_ptr<const Block>> blocks;
   std::optional<HeatLoop> heat;
   Eigen::Index samples = 0;  // N
@@ -131,7 +133,7 @@ struct Model {
   Eigen::Index size() const { return std::ssize(table); }
   /// [P] where the fit begins.
   Eigen::VectorXd Start() const;
-  /// [P x P] of what is known beforehand: 1 / variance of each prior, and what is alike.
+  /// [P x P] of what is known beforehand: 1 / variance of each prior, and what is known of groups.
   Eigen::MatrixXd PriorPrecision() const;
   /// [P] means of the priors, 0 without one.
   Eigen::VectorXd PriorMean() const;

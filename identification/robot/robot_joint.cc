@@ -135,7 +135,7 @@ void AddBlocks(const JointColumns& c, const GainGuess& guess, const JointQuestio
     model.blocks.push_back(std::make_shared<LinearBlock>(ripple, Shared(c.ripple)));
   }
   if (further.flanks) {
-    model.alike = {{of_law.begin + 1, of_law.begin + 2, *further.flanks}};
+    model.groups = {Alike(of_law.begin + 1, of_law.begin + 2, *further.flanks)};
     const Slice offset = model.Append({OffsetUnknown(units)});
     const VectorXd ones = VectorXd::Ones(c.velocity.size());
     model.blocks.push_back(std::make_shared<LinearBlock>(offset, Shared(ones)));
@@ -157,17 +157,10 @@ void AddHeat(const JointColumns& c, const HeatGuess& guess, JointFit& fit) {
                             .parameters = at};
 }
 
-/// The directions of the description, which a first fit holds while the noise is not known.
-std::vector<Index> Directions(const JointFit& fit) {
-  const Slice z = fit.At(Role::direction);
-  std::vector<Index> held;
-  for (Index i = z.begin; i < z.end(); ++i) held.push_back(i);
-  return held;
-}
-
-/// Solves first with the description as it is, then with all unknowns free.
+/// Solves first with the description as it is, while the noise is not known, then with all unknowns free.
 void SolveFresh(const JointColumns& c, JointFit& fit) {
-  fit.solved = Solve(fit.model, c.samples, fit.model.Start(), Directions(fit));
+  const std::vector<Index> of_description = fit.At(Role::direction).Places();
+  fit.solved = Solve(fit.model, c.samples, fit.model.Start(), of_description);
   fit.solved = Solve(fit.model, c.samples, fit.solved.x);
 }
 

@@ -40,7 +40,7 @@ class SharedSquares {
         }
         own.Add(i, all_.Append({RowOf(fit, i)}).begin);
       }
-      TakeAlike(fit.model, own);
+      TakeGroups(fit.model, own);
     }
     // the directions are those of every joint
     z_.begin = all_.size();
@@ -110,11 +110,14 @@ class SharedSquares {
     }
   };
 
-  /// What a joint's model knows to be alike, of unknowns that are not held.
-  void TakeAlike(const Model& model, const Places& own) {
-    for (const auto& [first, second, deviation] : model.alike) {
-      const std::optional<Index> one = own.Find(first), other = own.Find(second);
-      if (one && other) all_.alike.push_back({*one, *other, deviation});
+  /// What a joint's model knows of groups of unknowns none of which is held.
+  void TakeGroups(const Model& model, const Places& own) {
+    for (const GroupPrior& of_joint : model.groups) {
+      GroupPrior here{{}, of_joint.precision};
+      for (const Index place : of_joint.places) {
+        if (const auto found = own.Find(place)) here.places.push_back(*found);
+      }
+      if (here.places.size() == of_joint.places.size()) all_.groups.push_back(std::move(here));
     }
   }
 
