@@ -51,7 +51,7 @@ double SquaresWithout(const StribeckProblem& problem) {
   // with warming, from the best time constant of a scan
   const LawBlocks blocks(m, columns, LossColumns(problem.law.without, m), problem.rigid);
   const InitialGuess start =
-      ScanBesideRigid(columns, cold.solution.tail(problem.rigid.cols()), problem);
+      ScanWarming(columns, cold.solution.tail(problem.rigid.cols()), problem);
   const ThermalFit fit =
       FitThermalFriction({.blocks = blocks,
                           .samples = {.torque = m.torque, .keep = problem.selection.keep},

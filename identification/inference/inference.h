@@ -70,11 +70,11 @@ std::vector<Cause> OwnCauses(const Fit& fit, const Inference& by_noise);
 /// The inference from the noise, with the fit's own causes applied.
 Inference Infer(const Fit& fit);
 
-/// The parts of an interval by noise: that of white noise, what colour and unevenness add, and what few segments add.
-/// slopes: [p] of the figure by the coordinates; half: of its interval
 /// The parts of a half width of a fit with fields, from its deviations up to each. half: the whole
 std::vector<WidthPart> FieldParts(const std::vector<ErrorUpTo<double>>& up_to, double half);
 
+/// The parts of an interval by noise: that of white noise, what colour and unevenness add, and what few segments add.
+/// slopes: [p] of the figure by the coordinates; half: of its interval
 std::vector<WidthPart> NoiseParts(const Uncertainty& uncertainty, const Eigen::VectorXd& slopes,
                                   double half);
 

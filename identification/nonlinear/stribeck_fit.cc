@@ -120,7 +120,7 @@ std::optional<FitPoint> StartAt(const StribeckProblem& problem, double velocity)
     point.squares = (torque - kept * cold.solution).squaredNorm();
   } else {
     // with warming: the time constant that explains most in addition to these columns
-    const InitialGuess start = ScanBesideRigid(columns, cold.solution.tail(q), problem);
+    const InitialGuess start = ScanWarming(columns, cold.solution.tail(q), problem);
     const Eigen::VectorXd law = start.parameters.head(columns.cols());
     at.law().In(point.x) = law;
     point.x[at.gain()] = start.thermal.gain;
@@ -140,15 +140,11 @@ Eigen::MatrixXd BesideRigid(const Eigen::MatrixXd& columns, const StribeckProble
   return problem.rigid.cols() > 0 ? ConcatColumns(columns, problem.rigid) : columns;
 }
 
-InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
-                             const StribeckProblem& problem) {
+InitialGuess ScanWarming(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
+                         const StribeckProblem& problem) {
   const LogSamples& m = problem.measurements;
-  const ClosedLoop together = ClosedLoop::Along(m, BesideRigid(columns, problem));
-  Eigen::VectorXd torque = m.torque;
-  if (rigid.size() > 0) torque -= problem.rigid * rigid;
-  InitialGuess start = ScanTimeConstant(together, torque, problem.selection.keep.cast<double>());
-  start.parameters.tail(rigid.size()) += rigid;
-  return start;
+  return ScanBeside({problem.rigid, rigid}, ClosedLoop::Along(m, BesideRigid(columns, problem)),
+                    m.torque, problem.selection.keep.cast<double>());
 }
 
 std::vector<FitPoint> ScanStribeckVelocity(const StribeckProblem& problem) {

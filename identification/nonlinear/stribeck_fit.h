@@ -50,10 +50,10 @@ struct StribeckProblem {
 /// Columns, followed by those of the problem's rigid part. columns: [N x d]; returns [N x d + q]
 Eigen::MatrixXd BesideRigid(const Eigen::MatrixXd& columns, const StribeckProblem& problem);
 
-/// A start for columns of friction, the rigid part that follows them and the warming: the scan over tau once the rigid part of
-/// a fit without warming is subtracted from the loss. columns: [N x d]; rigid: [q] of that fit; parameters of what it returns: [d + q]
-InitialGuess ScanBesideRigid(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
-                             const StribeckProblem& problem);
+/// A start for columns of friction, the rigid part that follows them and the warming (ScanBeside). columns: [N x d]; rigid: [q] of
+/// a fit without warming; parameters of what it returns: [d + q]
+InitialGuess ScanWarming(const Eigen::MatrixXd& columns, const Eigen::VectorXd& rigid,
+                         const StribeckProblem& problem);
 
 /// The best x on a grid of 16 values of vs, even in ln vs from a third of the slowest kept speed to
 /// the fastest one. Given vs the law is linear in the rest (Golub and Pereyra 1973); with warming,

@@ -55,11 +55,8 @@ InitialGuess LawProblem::Scan(const Eigen::VectorXd& torque, const ThermalFit& c
   const Eigen::VectorXd kept = input_.selection.keep.cast<double>();
   if (gravity.count() == 0) return ScanTimeConstant(*blocks_.loop, torque, kept);
 
-  // gravity of the fit without warming is subtracted, and its remaining error is scanned together with the law
   const ClosedLoop together = ClosedLoop::Along(input_.measurements, task_.columns);
-  InitialGuess start = ScanTimeConstant(together, torque - gravity.columns * cold.rigid(), kept);
-  start.parameters.tail(gravity.count()) += cold.rigid();
-  return start;
+  return ScanBeside({gravity.columns, cold.rigid()}, together, torque, kept);
 }
 
 ThermalResponse LawProblem::Respond(const ThermalFit& fit) const {

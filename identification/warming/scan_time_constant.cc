@@ -161,4 +161,13 @@ InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& tor
   return start;
 }
 
+InitialGuess ScanBeside(const RigidGuess& rigid, const ClosedLoop& loop,
+                        const Eigen::VectorXd& torque, const Eigen::VectorXd& kept) {
+  const Eigen::Index count = rigid.values.size();
+  if (count == 0) return ScanTimeConstant(loop, torque, kept);
+  InitialGuess start = ScanTimeConstant(loop, torque - rigid.columns * rigid.values, kept);
+  start.parameters.tail(count) += rigid.values;
+  return start;
+}
+
 }  // namespace warmjoint

@@ -27,4 +27,15 @@ struct InitialGuess {
 InitialGuess ScanTimeConstant(const ClosedLoop& loop, const Eigen::VectorXd& torque,
                               const Eigen::VectorXd& kept);
 
+/// Columns of a rigid part, which make no heat, and their values in a fit without warming.
+struct RigidGuess {
+  const Eigen::MatrixXd& columns;  // [N x q]
+  Eigen::VectorXd values;          // [q]
+};
+
+/// The same where the last columns of the loop are those of a rigid part: it is subtracted from the loss, and what it then has in
+/// error is scanned together with the law.
+InitialGuess ScanBeside(const RigidGuess& rigid, const ClosedLoop& loop,
+                        const Eigen::VectorXd& torque, const Eigen::VectorXd& kept);
+
 }  // namespace warmjoint
