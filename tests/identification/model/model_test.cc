@@ -110,6 +110,7 @@ TEST(Model, EndsWithTheHeatOfItsLastSample) {
 TEST(ModelSquares, AreThoseOfAllRowsWithWeightsAndPriors) {
   Model model = EveryBlock();
   model.table[8].prior = Normal{1, .5};
+  model.groups = {Alike(0, 2, .25)};
   const VectorXd x = SomePoint();
   ModelSamples samples{.torque = VectorXd::LinSpaced(kSamples, -4, 7),
                        .keep = Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(kSamples, true),
@@ -124,7 +125,15 @@ TEST(ModelSquares, AreThoseOfAllRowsWithWeightsAndPriors) {
   VectorXd product = rows.derivatives.transpose() * weights.cwiseProduct(left);
   gram(8, 8) += 4;
   product[8] -= 4 * (x[8] - 1);
-  const double squares = left.cwiseAbs2().dot(weights) + 4 * (x[8] - 1) * (x[8] - 1);
+  // the difference of the first and the third over .25
+  VectorXd difference = VectorXd::Zero(x.size());
+  difference[0] = 4;
+  difference[2] = -4;
+  const double apart = difference.dot(x);
+  gram += difference * difference.transpose();
+  product -= apart * difference;
+  const double squares =
+      left.cwiseAbs2().dot(weights) + 4 * (x[8] - 1) * (x[8] - 1) + apart * apart;
   EXPECT_LT((sums.gram - gram).norm(), 1e-12 * gram.norm());
   EXPECT_LT((sums.product - product).norm(), 1e-12 * product.norm());
   EXPECT_NEAR(sums.squares, squares, 1e-12 * squares);
