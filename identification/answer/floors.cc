@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "identification/fit/fit_along.h"
 #include "identification/fit/fit_data.h"
 #include "identification/preparation/moving_view.h"
 #include "identification/sentences/friction.h"
@@ -24,18 +25,6 @@ constexpr double kNoFriction = 3e-3;  // of the torque; why: gears lose ten time
 
 double RootMeanSquare(const Eigen::VectorXd& x) {
   return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
-}
-
-/// F at the kept samples: the fitted torque less gravity and inertia, which make no heat. [n]
-Eigen::VectorXd FrictionIn(const Fit& fit, const LogSamples& m) {
-  Eigen::VectorXd force = fit.rows.fitted;
-  if (fit.model.gravity) force -= Kept(fit.model.gravity->Torque(m.position), fit.rows.used);
-  if (fit.model.inertia && m.acceleration)
-    force -= *fit.model.inertia * Kept(*m.acceleration, fit.rows.used);
-  if (fit.rows.inertia_torque.size() > 0) force -= Kept(fit.rows.inertia_torque, fit.rows.used);
-  if (fit.model.lag) force -= Kept(fit.rows.by_lag, fit.rows.used);
-  if (fit.figures.fields) force -= Kept(fit.figures.fields->rest, fit.rows.used);
-  return force;
 }
 
 /// Whether any figure is known to be above 0.
@@ -62,11 +51,12 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
   const auto used = static_cast<double>(fit.rows.torque.size());
   const auto moving = static_cast<double>((m.velocity.array().abs() > ClearSpeed(m)).count());
   if (used < kFewest || used < kLeastShare * moving) {
+    MotionKind motion = m.acceleration ? MotionKind::any : MotionKind::constant;
+    if (fit.RowOf(Role::scale)) motion = MotionKind::chosen;
     return Floor(Source::few_samples, Status::not_identifiable,
-                 ExplainFewSamples(used, moving, kFewest, kLeastShare,
-                                   m.acceleration ? MotionKind::any : MotionKind::constant));
+                 ExplainFewSamples(used, moving, kFewest, kLeastShare, motion));
   }
-  const Eigen::VectorXd along = FrictionIn(fit, m);
+  const Eigen::VectorXd along = Kept(FrictionAlong(fit, m).force, fit.rows.used);
   const double friction = RootMeanSquare(along);
   const double share = friction / RootMeanSquare(fit.rows.torque);
   if (share < kNoFriction) {
@@ -110,10 +100,12 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& m, const Infer
                ExplainMuchLeft(beside, friction, fit));
 }
 
-std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool varied, const Fit& fit) {
-  if (!varied || held_out.n < kFewest || !(held_out.fit < 0)) return std::nullopt;
+std::optional<Cause> FloorOfHeldOut(const HeldOut& held_out, const Fit& fit) {
+  if (!held_out.metrics || !held_out.varied || held_out.metrics->n < kFewest) return std::nullopt;
+  const double left = held_out.metrics->rmse;
+  if (!(left > held_out.without_friction)) return std::nullopt;
   return Floor(Source::worse_than_mean, Status::inadequate_model,
-               ExplainWorseHeldOut(held_out.fit, fit));
+               ExplainWorseHeldOut(left, held_out.without_friction, fit));
 }
 
 }  // namespace warmjoint

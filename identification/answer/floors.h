@@ -5,6 +5,7 @@
 
 #include "identification/fit/cause.h"
 #include "identification/fit/fit.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/inference/inference.h"
 
 namespace warmjoint {
@@ -27,8 +28,8 @@ std::optional<Cause> FloorCause(const Fit& fit, const LogSamples& measurements,
 /// Each in root mean square: left of the torque, of the friction, of what else was fitted (gravity, inertia). N.m or N
 bool LeavesTooMuch(double left, double friction, double others);
 
-/// The same by samples that a fit to others has not seen: it predicts them worse than their mean does. varied: whether the joint
-/// moves there in both directions and at several speeds; else an offset of the torque, or one level, decides.
-std::optional<Cause> FloorOfHeldOut(const Metrics& held_out, bool varied, const Fit& fit);
+/// The same by samples that a fit to others has not seen: it predicts them worse than what is left without friction does. Only
+/// where the joint moves there in both directions and at several speeds; else an offset of the torque, or one level, decides.
+std::optional<Cause> FloorOfHeldOut(const HeldOut& held_out, const Fit& fit);
 
 }  // namespace warmjoint

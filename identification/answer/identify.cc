@@ -312,9 +312,9 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& given,
   return answer;
 }
 
-void JudgeHeldOut(const Metrics& held_out, bool varied, Answer& answer) {
+void JudgeHeldOut(const HeldOut& held_out, Answer& answer) {
   if (answer.judged.status != Status::ok) return;
-  auto floor = FloorOfHeldOut(held_out, varied, answer.fit);
+  auto floor = FloorOfHeldOut(held_out, answer.fit);
   if (!floor) return;
   std::vector<Cause> causes = answer.judged.causes;
   causes.push_back(std::move(*floor));

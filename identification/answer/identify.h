@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "identification/fit/identifier.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/report/report_fit.h"
@@ -38,7 +39,7 @@ Answer FitAndCheck(const Identifier& identifier, const IdentifierInput& input,
                    const LackOfFitSettings& judging = {});
 
 /// Refuses an answer that figures on samples which a fit to others has not seen contradict (FloorOfHeldOut).
-void JudgeHeldOut(const Metrics& held_out, bool varied, Answer& answer);
+void JudgeHeldOut(const HeldOut& held_out, Answer& answer);
 
 /// The judged answer as an estimate: FitAndCheck, ReportFit.
 Estimate IdentifyAndCheck(const Identifier& identifier, const IdentifierInput& input,

@@ -224,11 +224,10 @@ Fit Conclude(const Round& round) {
   for (const FieldBlock& block : round.blocks)
     fit.figures.fields->present.kinds.push_back(block.kind);
   figures.AddTo(uncertainty.degrees_of_freedom, fit);
-  fit.figures.fields->rest = torque - round.at.torque_of(fit, m);
+  fit.rows.rest = torque - round.at.torque_of(fit, m);
   fit.rows.count += static_cast<int>(round.evidence->size() - UnknownsOf(fit).size());
   // what the friction file leaves out: the parts of fields that may be chance, and what lies between the centres of maps
-  const VectorXd left_out =
-      Kept(VectorXd(fit.figures.fields->rest - DriftAlong(solved, m)), fit.rows.used);
+  const VectorXd left_out = Kept(VectorXd(fit.rows.rest - DriftAlong(solved, m)), fit.rows.used);
   const std::vector<FieldShare> shares = figures.Shares(round.friction);
   fit.summary += SummaryOfFields(shares, left_out.cwiseAbs().maxCoeff() / round.friction);
   if (const auto slope = ByTemperature(solved)) {

@@ -76,7 +76,6 @@ struct FittedFields {
   std::vector<Eigen::VectorXd> at_speeds_by_rows{};
   /// Of each friction at speeds, its deviations up to each part of its error, N.m or N
   std::vector<std::vector<ErrorUpTo<double>>> at_speeds_up_to{};
-  Eigen::VectorXd rest{};  // [N] torque along this log alone, as drifts, N.m or N
   /// -2 log of the marginal likelihood, of the same rows and fields with any table: the least is the likeliest
   double cost = 0;
   double time_torque = 0;    // amplitude of the torque over time, a share of the friction
@@ -107,10 +106,9 @@ struct FitRows {
   std::function<Eigen::MatrixXd()> jacobian;
   ErrorModel errors;
   Eigen::MatrixXd gravity;  // [m x q] values of the gravity by the table's rows of it
-  /// [N] M a where the fit computed its own a from the velocities, N.m or N; else empty.
-  Eigen::VectorXd inertia_torque;
-  /// [N] what a lag adds to F + G at the kept samples, N.m or N, 0 elsewhere; or empty.
-  Eigen::VectorXd by_lag;
+  /// [N] what the fit has along this log alone, in addition to the torque of its model, N.m or N: what a lag adds at the kept
+  /// samples, drifts of fields, M a by an acceleration of its own; or empty.
+  Eigen::VectorXd rest;
   int count = 0;                    // of parameters, kernels included
   double effective_parameters = 0;  // trace of the hat matrix
   std::optional<double> loss_bend;  // from which residual on a robust loss is linear, N.m or N

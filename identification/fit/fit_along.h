@@ -12,7 +12,15 @@ namespace warmjoint {
 /// that row need the load of a gain of 0, too.
 FollowedBy PartsOf(const Fit& fit);
 
-/// F + G + M a of a fit along a motion that its torque follows. [N] N.m or N
+/// The friction of a fit along a motion that its torque follows, with the deflection of a bristle at each start as the fit
+/// gives it, else as the torque gives it.
+Prediction FrictionAlong(const Fit& fit, const LogSamples& followed);
+
+/// F + G + M a of a model: G and M a, where the log has an acceleration, added to its friction F. friction: [N] N.m or N
+Eigen::VectorXd WithRigid(const TorqueModel& model, const LogSamples& followed,
+                          Eigen::VectorXd friction);
+
+/// The same of a fit. [N] N.m or N
 Eigen::VectorXd TorqueAlong(const Fit& fit, const LogSamples& followed);
 
 }  // namespace warmjoint

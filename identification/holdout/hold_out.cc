@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "identification/fit/fit_along.h"
 #include "identification/fit/fit_data.h"
 #include "identification/fit/seen_samples.h"
 #include "identification/forward/log_trajectory.h"
@@ -39,25 +40,30 @@ Selection Within(Selection first, const Selection& chosen) {
   return first;
 }
 
-/// Whether the joint moves in both directions, at speeds that differ by more than a tenth. test: keeps one sample at least
-bool IsVaried(const LogSamples& m, const Selection& test) {
-  const Eigen::ArrayXd velocity = Kept(m.velocity, test), speed = velocity.abs();
-  const bool both = velocity.minCoeff() < 0 && velocity.maxCoeff() > 0;
-  return both && speed.maxCoeff() > 1.1 * speed.minCoeff();
-}
-
 }  // namespace
 
-std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
-                                      double fraction, const Fit& all_data) {
-  const IdentifierInput input = SelectSamples(identifier, given);
-  const auto& keep = input.selection.keep;
+std::optional<Eigen::Index> SplitOf(const Selection& selection, double fraction) {
+  const auto& keep = selection.keep;
   // a share of the samples that take part, however long they last
   const auto first = std::llround((1 - fraction) * static_cast<double>(keep.count()));
   if (first < 2 || first >= keep.count()) return std::nullopt;
   Eigen::Index end = 0;
   for (Eigen::Index seen = 0; seen < first || !keep[end]; ++end) seen += keep[end];
-  const double split = input.measurements.time[end];
+  return end;
+}
+
+bool IsVaried(const Eigen::VectorXd& all, const Selection& test) {
+  const Eigen::ArrayXd velocity = Kept(all, test), speed = velocity.abs();
+  const bool both = velocity.minCoeff() < 0 && velocity.maxCoeff() > 0;
+  return both && speed.maxCoeff() > 1.1 * speed.minCoeff();
+}
+
+std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
+                                      double fraction, const Fit& all_data) {
+  const IdentifierInput input = SelectSamples(identifier, given);
+  const auto end = SplitOf(input.selection, fraction);
+  if (!end) return std::nullopt;
+  const double split = input.measurements.time[*end];
   // the samples before, in the view in which the identifier had the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput all = before.Through(input.view);
@@ -87,7 +93,11 @@ HeldOut HoldOut(const Identifier& identifier, const IdentifierInput& given, doub
     if (unseen != starts.end()) test.keep.tail(input.measurements.size() - *unseen) = false;
   }
   if (auto metrics = Evaluate(first->fit, input.measurements, test, first->fit.Start())) {
-    return {std::move(metrics), "", IsVaried(input.measurements, test)};
+    // about their mean, of which Fit is a share
+    const double spread = metrics->rmse / (1 - metrics->fit / 100);
+    return {.metrics = std::move(metrics),
+            .varied = IsVaried(input.measurements.velocity, test),
+            .without_friction = spread};
   }
 
   // a fit without friction predicts nothing; else the rest holds no sample to compare
@@ -159,13 +169,10 @@ TorquePrediction PredictTorque(const TorqueModel& model, const LogSamples& logge
   }
   const LogSamples& m = logged;
   TorquePrediction predicted{{}, std::move(asked), PredictFriction(model.friction, m, start)};
-  // friction, and inertia where the log has an acceleration
-  predicted.torque = predicted.friction.force;
-  if (model.inertia && m.acceleration) predicted.torque += *model.inertia * *m.acceleration;
+  predicted.torque = WithRigid(model, m, predicted.friction.force);
 
-  // gravity where it is known
+  // compared where gravity is known
   if (model.gravity) {
-    predicted.torque += model.gravity->Torque(m.position);
     for (Eigen::Index i = 0; i < m.size(); ++i) {
       bool& keep = predicted.covered.keep[i];
       keep = keep && model.gravity->Covers(m.position[i]);

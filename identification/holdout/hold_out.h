@@ -16,6 +16,14 @@
 
 namespace warmjoint {
 
+/// The first of the last samples, which are a share of those that take part, 0 < fraction < 1. Nothing where fewer than two
+/// come before it, or none is left.
+std::optional<Eigen::Index> SplitOf(const Selection& selection, double fraction);
+
+/// Whether the joint moves in both directions, at speeds that differ by more than a tenth. velocity: [N]; test: keeps one sample
+/// at least
+bool IsVaried(const Eigen::VectorXd& velocity, const Selection& test);
+
 /// A fit to the samples before a time only.
 struct FirstPart {
   double split = 0;  // s
@@ -30,9 +38,11 @@ std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const Identi
 /// Figures on samples that a fit has not seen, or why there are none.
 struct HeldOut {
   std::optional<Metrics> metrics;
-  std::string why_none;  // a clause; empty where there are figures
-  /// whether the joint moves in both directions, at more than one speed, in the samples of the figures
+  std::string why_none{};  // a clause; empty where there are figures, or none are asked for
+  /// Whether the joint moves in both directions, at more than one speed, in the samples of the figures.
   bool varied = false;
+  /// Rms that the same samples leave without friction: about their mean, or beside a description that is given. N.m or N
+  double without_friction = 0;
 };
 
 /// FitFirstPart, evaluated on the kept samples of the

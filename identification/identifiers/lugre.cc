@@ -275,7 +275,7 @@ void Conclude(const IdentifierInput& input, const LugreProblem& problem, const L
   const Eigen::VectorXd& x = answer.fit.solution.x;
   SetModel(m, problem, x, fit);
   fit.rows.used = problem.used;
-  fit.rows.inertia_torque = x[at.inertia()] * problem.acceleration;
+  fit.rows.rest = x[at.inertia()] * problem.acceleration;
   // friction with which each recording begins: the load of the bristle and the viscous part
   const double viscous = x[at.law().begin];
   const std::vector<SampleRange> recordings = m.Recordings();

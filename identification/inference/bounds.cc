@@ -55,7 +55,7 @@ Eigen::VectorXd TorqueOf(const Fit& fit, const LogSamples& logged) {
 Eigen::VectorXd FrictionOver(const Fit& fit, const LogSamples& logged, const Selection& used) {
   const auto followed = Followed(logged, fit.rows.used, PartsOf(fit));
   const LogSamples& m = followed ? followed->measurements : logged;
-  return Kept(PredictFriction(fit.model.friction, m, fit.Start()).force, used);
+  return Kept(FrictionAlong(fit, m).force, used);
 }
 
 /// The 95 % interval of an inertia that was fitted and lies below 0 with the whole of it.

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "identification/fit/fit_along.h"
 #include "identification/fit/fit_parameters.h"
 #include "identification/forward/closed_loop.h"
 #include "identification/forward/log_trajectory.h"
@@ -87,16 +88,6 @@ std::vector<size_t> RowsOf(const Fit& fit, std::initializer_list<Role> roles) {
     }
   }
   return rows;
-}
-
-/// The motion, with the deflection of a bristle at each start as the fit gives it, else as the torque gives it.
-JointTrajectory TrajectoryFor(const Fit& fit, const LogSamples& m) {
-  JointTrajectory trajectory = TrajectoryOf(m, BristleStart::torque);
-  const std::vector<SampleRange> recordings = m.Recordings();
-  for (size_t r = 0; r < fit.start.friction.size(); ++r) {
-    trajectory.torque[recordings[r].first] = fit.start.friction[r];
-  }
-  return trajectory;
 }
 
 /// Where E of a fit jumps along its log: at gaps, by the losses that were not logged, and at further starts, by the heat
@@ -246,11 +237,8 @@ std::optional<FittedModel> EvaluateModel(const Fit& fit, const Inference& infere
   model.torque = m.torque;
   if (fit.model.gravity) TakeOff(*fit.model.gravity, m.position, model);
   if (fit.model.inertia) model.torque -= *fit.model.inertia * *m.acceleration;
-  if (fit.rows.inertia_torque.size() > 0) model.torque -= fit.rows.inertia_torque;
-  if (fit.model.lag) model.torque -= fit.rows.by_lag;
-  if (fit.figures.fields) model.torque -= fit.figures.fields->rest;
-  const Prediction prediction =
-      AlongMotion(fit.model.friction).Predict(TrajectoryFor(fit, m), fit.Start());
+  if (fit.rows.rest.size() > 0) model.torque -= fit.rows.rest;
+  const Prediction prediction = FrictionAlong(fit, m);
   model.residual = model.torque - prediction.force;
   model.energy = prediction.energy;
   if (!fit.model.friction.maps.empty())

@@ -128,7 +128,7 @@ void AddLag(const std::shared_ptr<const LaggedRows>& rows, const VectorXd& model
   fit.rows.torque = measured;
   fit.rows.fitted = lagged + rows->Decaying(held);
   fit.model.lag = rows->lag();
-  fit.rows.by_lag = AtSamples(fit.rows.fitted - torque, runs, m.size());
+  fit.rows.rest = AtSamples(fit.rows.fitted - torque, runs, m.size());
 
   // its derivatives by all estimated values, orthogonal to what runs begin with
   fit.rows.jacobian = [rows, of_model = std::move(fit.rows.jacobian), torque, held,

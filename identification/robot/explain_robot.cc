@@ -41,29 +41,6 @@ std::string ExplainBeyond(const std::vector<std::string>& rows) {
       fmt::join(rows, " and "));
 }
 
-std::string ExplainUntold(double level, double reach, const std::string& unit) {
-  return fmt::format(
-      "Coulomb friction is unknown: {:.3g} +- {:.3g} {}; log slower and faster motion in both "
-      "directions",
-      level, reach, unit);
-}
-
-std::string ExplainResidual(double left, double friction, const std::string& unit) {
-  return fmt::format(
-      "the residual of {:.3g} {} is more than half of the friction, {:.3g}: the description, the "
-      "joint's torque or its sign are not those of the log, or its motor ripples (--gear N fits "
-      "that)",
-      left, unit, friction);
-}
-
-std::string ExplainWorseHeldOut(double with, double without, const std::string& unit) {
-  return fmt::format(
-      "on held-out samples the residual is {:.3g} {} with friction and {:.3g} without: the log "
-      "does "
-      "not repeat what was fitted; log more of the same kind of motion",
-      with, unit, without);
-}
-
 std::string ExplainTurnedTorque(const std::string& joint) {
   return fmt::format(
       "the torque of {} drives its motion where friction would brake: its sign is taken to be "

@@ -19,11 +19,8 @@ std::string ExplainDidNotMove(const std::string& joint, double travel, JointKind
 std::string ExplainLittleMotion(const std::string& joint, long samples, long needed);
 std::string ExplainOneDirection(const std::string& joint);
 
-// why its numbers mean nothing. Torques in `unit`
+// why its numbers mean nothing
 std::string ExplainBeyond(const std::vector<std::string>& rows);
-std::string ExplainUntold(double level, double reach, const std::string& unit);
-std::string ExplainResidual(double left, double friction, const std::string& unit);
-std::string ExplainWorseHeldOut(double with, double without, const std::string& unit);
 
 // what a reader has to know in addition to the numbers
 std::string ExplainTurnedTorque(const std::string& joint);

@@ -75,7 +75,7 @@ void AddFields(const JointColumns& c, const FieldSet& fields, JointFit& fit) {
   if (!made.figures.fields) return;
   const VectorXd torque =
       TorqueOf(fit.model, UnknownsOf(made), made.model.friction, SamplesOf(fit, c)) +
-      made.figures.fields->rest;
+      made.rows.rest;
   fit.uncertainty = made.rows.errors.covariance();
   fit.effective_parameters = made.rows.effective_parameters;
   fit.solved.x = UnknownsOf(made);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "identification/answer/floors.h"
 #include "identification/answer/speed_figures.h"
 #include "identification/fit/fit_data.h"
 #include "identification/fit/fit_parameters.h"
@@ -26,8 +27,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr int kFewest = 30;  // why 30: fewer do not show colour and structure of the noise
-/// The largest residual as a share of the friction. Why: beyond it the log's torque is not that of the model.
-constexpr double kLargestResidual = .5;
 
 /// Series over the log for pictures.
 JointSeries SeriesOf(const JointFit& fit, const JointColumns& c) {
@@ -52,32 +51,14 @@ VectorXd MeanCoulomb(const JointFit& fit) {
   return weights;
 }
 
-/// The causes that make the numbers of a joint mean nothing, and remarks on them.
-std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, const JointSeries& series,
-                            const std::optional<JointHoldOut>& holdout, bool gain_is_known) {
+/// Remarks on the numbers of a joint, and friction that would drive it.
+std::vector<Cause> CausesOf(const JointFit& fit, const JointColumns& c, bool gain_is_known) {
   std::vector<Cause> causes;
-  const Selection used{c.samples.keep, {}};
-  const auto refuse = [&](Status status, std::string sentence) {
+  if (!fit.beyond.empty()) {
     causes.push_back({.source = Source::own_law,
                       .action = Action::refuse,
-                      .status = status,
-                      .sentence = std::move(sentence)});
-  };
-  if (!fit.beyond.empty()) refuse(Status::inadequate_model, ExplainBeyond(fit.beyond));
-
-  // friction whose error exceeds itself, or that is smaller than the residual
-  const VectorXd mean = MeanCoulomb(fit);
-  const double level = mean.dot(fit.solved.x), reach = HalfWidthOf(fit, mean);
-  const double friction = std::sqrt(Kept(series.fitted, used).array().square().mean());
-  const double left = std::sqrt(fit.solved.noise.variance);
-  if (reach > std::max(level, friction)) {
-    refuse(Status::not_identifiable, ExplainUntold(level, reach, c.torque_unit));
-  } else if (left > kLargestResidual * friction) {
-    refuse(Status::inadequate_model, ExplainResidual(left, friction, c.torque_unit));
-  }
-  if (holdout && holdout->metrics.rmse > holdout->without_friction) {
-    refuse(Status::inadequate_model,
-           ExplainWorseHeldOut(holdout->metrics.rmse, holdout->without_friction, c.torque_unit));
+                      .status = Status::inadequate_model,
+                      .sentence = ExplainBeyond(fit.beyond)});
   }
 
   // what a reader has to know in addition to the numbers
@@ -126,35 +107,42 @@ EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_
 
 }  // namespace
 
-std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& c, double share) {
-  if (share <= 0) return std::nullopt;
-  const Index n = c.velocity.size(), cut = n - static_cast<Index>(share * static_cast<double>(n));
-  ModelSamples train = c.samples;
-  train.keep.tail(n - cut) = false;
-  Selection test{c.samples.keep, {}};
-  test.keep.head(cut) = false;
-  if (static_cast<double>(train.keep.count()) < kFewest + fit.effective_parameters ||
-      test.count() < kFewest) {
-    return std::nullopt;
-  }
-  const VectorXd residual = c.samples.torque - PredictedBy(fit, c, train);
+JointHoldOut HoldOutJoint(const JointFit& fit, const JointColumns& c, double share) {
   JointHoldOut found;
-  const VectorXd measured = Kept(c.samples.torque, test);
-  found.metrics = ComputeMetrics(measured, measured - Kept(residual, test),
-                                 static_cast<int>(fit.model.size()), fit.effective_parameters);
-  Selection moving = test;
+  if (share <= 0) return found;
+  const Selection all{c.samples.keep, {}};
+  const std::optional<Index> cut = SplitOf(all, share);
+  ModelSamples first = c.samples;
+  Selection rest = all;
+  if (cut) {
+    first.keep.tail(first.keep.size() - *cut) = false;
+    rest.keep.head(*cut) = false;
+  }
+  const double needed = kFewest + fit.effective_parameters;
+  if (!cut || static_cast<double>(first.keep.count()) < needed || rest.count() < kFewest) {
+    found.held.why_none = "too few samples move";
+    return found;
+  }
+  const VectorXd residual = c.samples.torque - PredictedBy(fit, c, first);
+  const VectorXd measured = Kept(c.samples.torque, rest);
+  found.held.metrics = ComputeMetrics(measured, measured - Kept(residual, rest),
+                                      static_cast<int>(fit.model.size()), fit.effective_parameters);
+  found.held.varied = IsVaried(c.velocity, rest);
+  Selection moving = rest;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;
-  moving.keep.head(cut) = false;
+  moving.keep.head(*cut) = false;
   found.moving = std::sqrt(Kept(residual, moving).array().square().mean());
 
   // gain and offset alone
-  Eigen::MatrixXd columns(n, 2);
-  columns << c.rigid.force, VectorXd::Ones(n);
-  const Eigen::MatrixXd seen = Kept(columns, {train.keep, {}});
-  const VectorXd x = SolveScaled(seen.transpose() * seen,
-                                 seen.transpose() * Kept(c.samples.torque, {train.keep, {}}));
-  found.without_friction = std::sqrt((measured - Kept(columns, test) * x).array().square().mean());
+  Eigen::MatrixXd columns(c.velocity.size(), 2);
+  columns << c.rigid.force, VectorXd::Ones(c.velocity.size());
+  const Selection seen{first.keep, {}};
+  const Eigen::MatrixXd known = Kept(columns, seen);
+  const VectorXd x =
+      SolveScaled(known.transpose() * known, known.transpose() * Kept(c.samples.torque, seen));
+  found.held.without_friction =
+      std::sqrt((measured - Kept(columns, rest) * x).array().square().mean());
   return found;
 }
 
@@ -180,8 +168,7 @@ RobotJointEstimate ReportNothing(const JointColumns& c, RobotJointSummary summar
 }
 
 RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
-                               RobotJointSummary summary,
-                               const std::optional<JointHoldOut>& holdout) {
+                               RobotJointSummary summary, const JointHoldOut& holdout) {
   const double gain = ValueOf(fit, fit.At(Role::scale).begin);
   summary.gain = gain;
   if (c.basis.cols() <= fit.At(Role::direction).size && c.described.size() > 0) {
@@ -195,27 +182,30 @@ RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& c,
 
   // judged as any other fit
   const Fit made = fit.fields ? fit.fields->fit : FitOf(fit, c, c.samples);
-  JointSeries series = SeriesOf(fit, c);
   Inference by_noise = ByNoise(made);
   std::vector<Cause> causes = OwnCauses(made, by_noise);
   by_noise.at_speeds =
       SpeedFiguresOf(made, Apply(by_noise, causes), std::nullopt, m, made.rows.used);
-  std::ranges::move(CausesOf(fit, c, series, holdout, summary.gain_is_known),
-                    std::back_inserter(causes));
-  if (auto floor = UnknownFriction(by_noise.at_speeds, causes)) causes.push_back(std::move(*floor));
+  std::ranges::move(CausesOf(fit, c, summary.gain_is_known), std::back_inserter(causes));
+  const auto judge = [&](const auto& floor) {
+    if (IsRefused(causes)) return;
+    if (std::optional<Cause> cause = floor()) causes.push_back(*std::move(cause));
+  };
+  judge([&] { return FloorCause(made, m, by_noise, kDefaultRelevance); });
+  judge([&] { return UnknownFriction(by_noise.at_speeds, causes); });
+  judge([&] { return FloorOfHeldOut(holdout.held, made); });
   const Inference inference = Apply(std::move(by_noise), std::move(causes));
-  RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m), std::move(series)};
+  RobotJointEstimate answer{std::move(summary), ReportFit(made, inference, m), SeriesOf(fit, c)};
   Estimate& estimate = answer.estimate;
   if (!estimate.parameters.empty()) {
     estimate.parameters.push_back(MeanRow(fit, c, estimate.status == Status::ok));
   }
-  if (holdout) {
-    estimate.holdout = holdout->metrics;
-    answer.summary.rms_held_out = holdout->metrics.rmse;
-    answer.summary.rms_moving = holdout->moving;
-    answer.summary.rms_without_friction = holdout->without_friction;
-  } else {
-    estimate.without_holdout = "too few samples move";
+  estimate.holdout = holdout.held.metrics;
+  estimate.without_holdout = holdout.held.why_none;
+  if (estimate.holdout) {
+    answer.summary.rms_held_out = estimate.holdout->rmse;
+    answer.summary.rms_moving = holdout.moving;
+    answer.summary.rms_without_friction = holdout.held.without_friction;
   }
   if (estimate.friction && c.torque_unit == "A") {
     if (answer.summary.gain_is_known) {

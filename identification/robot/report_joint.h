@@ -3,22 +3,21 @@
 
 #include <warmjoint/robot_estimate.h>
 
-#include <optional>
+#include <string>
 
+#include "identification/holdout/hold_out.h"
 #include "identification/robot/robot_joint.h"
 
 namespace warmjoint {
 
 /// The error of a second fit on samples that it has not seen. Torques in the log's unit.
 struct JointHoldOut {
-  Metrics metrics;              // away from reversals
-  double moving = 0;            // rms of all samples at which the joint moves
-  double without_friction = 0;  // rms of gain times rigid torque and an offset
+  HeldOut held;  // away from reversals; without friction: gain times rigid torque and an offset
+  double moving = 0;  // rms of all samples at which the joint moves
 };
 
-/// share: of the samples' end that is held out. Nothing where too few samples are left on either side.
-std::optional<JointHoldOut> HoldOutJoint(const JointFit& fit, const JointColumns& columns,
-                                         double share);
+/// share: of the samples' end that is held out, 0: none. None either where too few samples are left on either side.
+JointHoldOut HoldOutJoint(const JointFit& fit, const JointColumns& columns, double share);
 
 /// Why the log does not determine the friction of a joint; empty where it may.
 std::string WhyNothing(const JointColumns& columns, double travel);
@@ -29,7 +28,6 @@ RobotJointEstimate ReportNothing(const JointColumns& columns, RobotJointSummary 
 
 /// The estimate. Friction is in N.m (N) where the log has it so, or where the gain of its current is known; else in the log's unit.
 RobotJointEstimate ReportJoint(const JointFit& fit, const JointColumns& columns,
-                               RobotJointSummary summary,
-                               const std::optional<JointHoldOut>& holdout);
+                               RobotJointSummary summary, const JointHoldOut& holdout);
 
 }  // namespace warmjoint

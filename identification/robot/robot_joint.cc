@@ -12,6 +12,7 @@
 
 #include "identification/fit/fit_data.h"
 #include "identification/fit/fit_parameters.h"
+#include "identification/holdout/hold_out.h"
 #include "identification/model/normal_equations.h"
 #include "identification/robot/find_heat.h"
 #include "identification/robot/joint_fields.h"
@@ -304,20 +305,20 @@ std::optional<double> FindOffset(const JointColumns& c, const JointQuestion& q,
   return kFlanks * mean;
 }
 
-/// Mean square on the last part of the log by a fit to the first part, which starts from the given fit.
-double HeldOutSquare(const JointFit& fit, const JointColumns& c) {
-  ModelSamples train = c.samples;
-  const Index tail = static_cast<Index>(kUnseen * static_cast<double>(c.velocity.size()));
-  train.keep.tail(tail) = false;
-  Selection test{c.samples.keep, {}};
-  test.keep.head(c.velocity.size() - tail) = false;
-  return Kept(Solve(fit.model, train, fit.solved.x).residual, test).squaredNorm();
+/// Squares on the last part of the log by a fit to the first part, which starts from the given fit.
+double HeldOutSquares(const JointFit& fit, const JointColumns& c) {
+  ModelSamples first = c.samples;
+  Selection rest{c.samples.keep, {}};
+  const Index cut = SplitOf(rest, kUnseen).value_or(0);
+  first.keep.tail(first.keep.size() - cut) = false;
+  rest.keep.head(cut) = false;
+  return Kept(Solve(fit.model, first, fit.solved.x).residual, rest).squaredNorm();
 }
 
 /// Whether a further mechanism predicts unseen samples no worse than the fit without it. Why: a mechanism that a log shows by
 /// chance, or in place of something else that the model lacks, does not continue in the rest of the log.
 bool Predicts(const JointFit& further, const JointFit& without, const JointColumns& c) {
-  return HeldOutSquare(further, c) <= HeldOutSquare(without, c);
+  return HeldOutSquares(further, c) <= HeldOutSquares(without, c);
 }
 
 /// Whether viscous friction is below 0 beyond chance: friction falls with speed.

@@ -13,6 +13,9 @@ namespace {
 
 /// A question about what may act on the joint in addition to the friction of a fit.
 std::string_view BesideFriction(const Fit& fit) {
+  if (fit.RowOf(Role::scale)) {
+    return "are description, torque and sign those of the log, does its motor ripple (--gear N)?";
+  }
   return fit.model.gravity ? "do other joints move, or is a sign or a unit wrong?"
                            : "is there gravity (--gravity sincos), or a wrong sign or unit?";
 }
@@ -59,11 +62,11 @@ std::string ExplainPoorFit(double fit_share, double least, const Fit& fit) {
       least, BesideFriction(fit));
 }
 
-std::string ExplainWorseHeldOut(double fit_share, const Fit& fit) {
+std::string ExplainWorseHeldOut(double with, double without, const Fit& fit) {
   return fmt::format(
-      "the last part of the log, which a fit to the first has not seen, is predicted worse than by "
-      "its mean (Fit {:.3g} %): the joint changed, or it is not friction; {}",
-      fit_share, BesideFriction(fit));
+      "of the last part of the log, a fit to the first leaves {:.3g} with its friction and {:.3g} "
+      "without: the joint changed, or it is not friction; {}",
+      with, without, BesideFriction(fit));
 }
 
 std::string ExplainMuchLeft(double left, double friction, const Fit& fit) {

@@ -22,10 +22,10 @@ std::string RemedyForNonDissipative(std::string_view law,
 
 /// The sentence about a fit that describes the torque worse than its mean does. fit_share: Fit, %
 std::string ExplainWorseThanMean(double fit_share, const Fit& fit);
-/// The sentence about a fit that explains little of the torque in both directions; the next is about one that predicts unseen
-/// samples worse than their mean does. fit_share: Fit, %
+/// The sentence about a fit that explains little of the torque in both directions. fit_share: Fit, %
 std::string ExplainPoorFit(double fit_share, double least, const Fit& fit);
-std::string ExplainWorseHeldOut(double fit_share, const Fit& fit);
+/// The sentence about a fit that predicts unseen samples worse than the rest of the model does. with, without: rms that is left
+std::string ExplainWorseHeldOut(double with, double without, const Fit& fit);
 /// The sentence about a fit that leaves much of the torque, relative to the friction that it finds. left, friction: rms
 std::string ExplainMuchLeft(double left, double friction, const Fit& fit);
 /// The sentence about a torque that holds no friction. share: of the friction in the torque

@@ -51,10 +51,14 @@ std::string ExplainRounding(double step, const std::string& unit, const MovedPar
 
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
                               MotionKind motion) {
+  const std::string others = motion == MotionKind::chosen
+                                 ? ""
+                                 : fmt::format(", or use the others (--motion {})",
+                                               motion == MotionKind::any ? "constant" : "any");
   return fmt::format(
       "the fit rests on {} of {} samples that move, and takes {} and {:.0f} % of them: record "
-      "longer, or use the others (--motion {})",
-      used, moving, fewest, 100 * least_share, motion == MotionKind::any ? "constant" : "any");
+      "longer{}",
+      used, moving, fewest, 100 * least_share, others);
 }
 
 std::string ExplainOneSpeed(const std::vector<std::string>& names,

@@ -26,7 +26,7 @@ std::string ExplainReversals(double unseen);
 std::string ExplainRounding(double step, const std::string& unit, const MovedParameter& moved,
                             Action action);
 
-/// The sentence about a fit to few samples. motion: of the fit
+/// The sentence about a fit to few samples. motion: of the fit; chosen: of a fit that has no other
 std::string ExplainFewSamples(double used, double moving, double fewest, double least_share,
                               MotionKind motion);
 /// The sentence about a law's levels, by their names, where the joint moves at one speed each way. speeds: rad/s or m/s, in `unit`

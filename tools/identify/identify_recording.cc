@@ -149,7 +149,7 @@ HeldOut HoldOutBeside(const Identifier& identifier, const IdentifierInput& input
   // the fit as it is, on another recording, or a second fit to the first part, on the rest
   if (source.other) return HoldOut(identifier, answer.fit, *source.other);
   HeldOut held = HoldOut(identifier, input, source.fraction, answer.fit);
-  if (held.metrics) JudgeHeldOut(*held.metrics, held.varied, answer);
+  JudgeHeldOut(held, answer);
   return held;
 }
 

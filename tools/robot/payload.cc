@@ -117,12 +117,12 @@ EstimatedParameter MassOf(const RobotData& data, const MatrixXd& described, cons
   return mass;
 }
 
-/// Rms that a fit of the log's begin leaves at its end; nothing where too little is left to hold out.
-std::optional<double> HeldOut(const JointColumns& columns, const GainGuess& guess,
-                              const JointQuestion& question) {
+/// Rms that a fit to the first part of the log leaves in the rest; nothing where too little is left to hold out.
+std::optional<double> LeftAtTheEnd(const JointColumns& columns, const GainGuess& guess,
+                                   const JointQuestion& question) {
   const auto found = HoldOutJoint(FitJoint(columns, guess, question), columns, kHeldOut);
-  if (!found) return std::nullopt;
-  return found->metrics.rmse;
+  if (!found.held.metrics) return std::nullopt;
+  return found.held.metrics->rmse;
 }
 
 /// What all joints say together of the description with a free last link.
@@ -173,9 +173,9 @@ Payload FindPayload(const RobotData& data, const RobotRows& rows,
     // where the unit tells the gain, it cannot stand for the load
     const bool is_told = IsTorque(columns[at]);
     const auto before =
-        HeldOut(ColumnsOf(data, as_given, joints[at]), is_told ? gains.guesses[at] : own[at],
-                is_told ? under_load : question);
-    const auto after = HeldOut(columns[at], gains.guesses[at], under_load);
+        LeftAtTheEnd(ColumnsOf(data, as_given, joints[at]), is_told ? gains.guesses[at] : own[at],
+                     is_told ? under_load : question);
+    const auto after = LeftAtTheEnd(columns[at], gains.guesses[at], under_load);
     if (before && after) falls[at] = *after / *before;
   });
 

@@ -289,7 +289,7 @@ void warmjoint::fuzz::Read(std::string_view bytes) {
   const IdentifierInput input{log, options, {}};
   Answer answer = FitAndCheck(identifier, input, {.start = start});
   const HeldOut held = HoldOut(identifier, input, 0.3, answer.fit);
-  if (held.metrics) JudgeHeldOut(*held.metrics, held.varied, answer);
+  JudgeHeldOut(held, answer);
   const Estimate estimate = ReportAnswer(identifier, input, answer);
   RequireHonest(estimate);
   RequireHonest(IdentifyUnchecked(identifier, input));

@@ -212,7 +212,9 @@ TEST(RobotJoint, WithFieldsAWarmingIsFoundAndADriftIsNone) {
 TEST(RobotJoint, WithFieldsPredictsWhatItHasNotSeen) {
   JointColumns c = Columns({}, 3);
   c.samples.torque.array() += (9 * c.position.array()).sin() * c.sign.array();
-  const auto left = [&](const JointFit& fit) { return HoldOutJoint(fit, c, .4)->metrics.rmse; };
+  const auto left = [&](const JointFit& fit) {
+    return HoldOutJoint(fit, c, .4).held.metrics->rmse;
+  };
   EXPECT_LT(left(FitToFields(c)), .6 * left(Fit(c)));
 }
 
@@ -265,6 +267,38 @@ TEST(RobotJoint, IsReportedWithBothDirectionsAndTheirMean) {
   EXPECT_NEAR(answer.estimate.Find("coulomb")->value, 4.5, .2);
   EXPECT_LT(*answer.summary.rms_held_out, .35);
   EXPECT_GT(*answer.summary.rms_without_friction, 2);
+}
+
+TEST(RobotJoint, WithLittleFrictionUnderMuchNoiseIsAsSureAsItsInterval) {
+  // the noise is more than half of the friction, and much less than the weight
+  const JointTruth truth{.viscous = .2, .forwards = .3, .backwards = .3, .load = 0, .rotor = 0};
+  int held = 0, all = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const JointColumns c = Columns(truth, seed);
+    const RobotJointEstimate answer = ReportJoint(Fit(c), c, {}, {});
+    ASSERT_EQ(answer.estimate.status, Status::ok) << answer.estimate.message;
+    for (const FrictionAtSpeed& at : answer.estimate.friction_at_speeds) {
+      const double friction = truth.viscous * std::abs(at.speed) + truth.forwards;
+      held += at.interval95[0] <= friction && friction <= at.interval95[1];
+      ++all;
+    }
+  }
+  // intervals of 95 %, six a log that are not independent
+  EXPECT_GE(held, .8 * all);
+}
+
+TEST(RobotJoint, WhoseFrictionDoesNotReturnIsRefusedByWhatWasHeldOut) {
+  JointColumns c = Columns({}, 4);
+  const Index end = c.sign.size() * 4 / 10;
+  c.samples.torque.tail(end) -= 10 * c.sign.tail(end);
+  const JointFit fit = Fit(c);
+  const RobotJointEstimate unseen = ReportJoint(fit, c, {}, HoldOutJoint(fit, c, 0));
+  EXPECT_EQ(unseen.estimate.status, Status::ok) << unseen.estimate.message;
+  EXPECT_FALSE(unseen.estimate.holdout);
+  EXPECT_EQ(unseen.estimate.without_holdout, "");
+  const RobotJointEstimate answer = ReportJoint(fit, c, {}, HoldOutJoint(fit, c, .4));
+  EXPECT_EQ(answer.estimate.status, Status::inadequate_model);
+  EXPECT_GT(*answer.summary.rms_held_out, *answer.summary.rms_without_friction);
 }
 
 TEST(RobotJoint, JointsTogetherTellADelay) {
