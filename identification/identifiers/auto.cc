@@ -266,62 +266,87 @@ Fit NothingFits(const ModelComparison& comparison, StructureChoice choice) {
   return fit;
 }
 
-Fit FitChosen(const IdentifierInput& input) {
+/// A structure that was chosen, and why.
+struct Chosen {
+  Structure structure;
+  StructureChoice reported;
+};
+
+/// The choice among the structures that are not dropped; nothing where none gives friction.
+std::optional<Chosen> Choose(const IdentifierInput& input, ModelComparison& comparison) {
   const int blocks = input.options.Get<AutoOptions>().blocks;
-  if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
-
-  // compare on rows that hold the means of neighbours
-  const Trials trials = TryAll(input);
-  const Lateness late = trials.late;
-  ModelComparison& comparison = *trials.comparison;
-
-  // structures that cannot be chosen are dropped first, those without a slope before all; the others are compared on held-out blocks
-  comparison.DropWithoutSlope();
+  // structures that cannot be chosen are dropped first; the others are compared on held-out blocks
   comparison.DropDominated();
   const Structure* only = comparison.OnlyOne();
   std::vector<StructureCandidate> contenders;
   if (!only) contenders = comparison.Compare(blocks);
-  StructureChoice reported{"", "", blocks, comparison.Reported()};
   const Structure* best = comparison.Best();
-  if (!best) return NothingFits(comparison, std::move(reported));
+  if (!best) return std::nullopt;
 
   // chosen by the blocks, or by BIC where every structure needs one of the blocks, as one with the whole warm-up
-  Structure chosen = *best;
+  Chosen chosen{only ? *only : *best, {"", "", blocks, comparison.Reported()}};
+  std::string& reason = chosen.reported.reason;
   if (only) {
-    chosen = *only;
-    reported.reason = ExplainOnlyOne(chosen.Name());
+    reason = ExplainOnlyOne(only->Name());
   } else if (contenders.empty()) {
-    reported.reason = ExplainChosenByBic(chosen.Name(), blocks);
+    reason = ExplainChosenByBic(best->Name(), blocks);
   } else {
     const Choice choice = ChooseStructure(contenders);
-    chosen = comparison.Contending(choice.chosen);
-    reported.reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
+    chosen.structure = comparison.Contending(choice.chosen);
+    reason = Reason(contenders, choice, blocks, input.measurements.torque_unit);
   }
+  return chosen;
+}
 
-  // fitted to every sample, with the reason before the summary of the fit
-  input.Tell("fitting " + chosen.Name() + " to every sample");
-  chosen = WithLagOrFields(chosen, late, input);
-  const MakeFit make = [&](const IdentifierInput& other) { return FitOnAll(chosen, late, other); };
+/// The chosen structure fitted to every sample, with the reason before the summary of the fit.
+Fit FitToAll(Chosen chosen, const Lateness& late, const IdentifierInput& input) {
+  input.Tell("fitting " + chosen.structure.Name() + " to every sample");
+  Structure structure = WithLagOrFields(chosen.structure, late, input);
+  const MakeFit make = [&](const IdentifierInput& other) {
+    return FitOnAll(structure, late, other);
+  };
   Fit fit = WithoutNegativeInertia(make, input);
-  if (const auto rival = FollowingTemperature(chosen, fit, late, input)) {
-    chosen = *rival;
-    reported.reason = kFollowsTemperature;
+  if (const auto rival = FollowingTemperature(structure, fit, late, input)) {
+    structure = *rival;
+    chosen.reported.reason = kFollowsTemperature;
     fit = WithoutNegativeInertia(make, input);
   }
 
   // what is reported, and the same structure for other samples
-  reported.chosen = chosen.CanHaveFields() ? chosen.With(FieldOption{}).Name() : chosen.Name();
+  chosen.reported.chosen =
+      structure.CanHaveFields() ? structure.With(FieldOption{}).Name() : structure.Name();
   const auto inertia = fit.RowOf(Role::inertia);
   if (inertia && !fit.parameters[*inertia].estimated) {
-    chosen.identifier.options = WithoutInertia(chosen.identifier.options);
+    structure.identifier.options = WithoutInertia(structure.identifier.options);
   }
   fit.identifier = kName;
-  fit.summary = SummaryOfChoice(NotShown(fit, input.log), reported.reason, fit.summary);
-  fit.choice = std::move(reported);
-  fit.structure = [sketch = chosen.PointEstimate(), late](const IdentifierInput& other) {
+  fit.summary = SummaryOfChoice(NotShown(fit, input.log), chosen.reported.reason, fit.summary);
+  fit.choice = std::move(chosen.reported);
+  fit.structure = [sketch = structure.PointEstimate(), late](const IdentifierInput& other) {
     return FitOnAll(sketch, late, other);
   };
   return fit;
+}
+
+Fit FitChosen(const IdentifierInput& input) {
+  const int blocks = input.options.Get<AutoOptions>().blocks;
+  if (auto why = Unusable(input, 2 * blocks)) return Refused(kName, Status::bad_data, *why);
+
+  // compare on rows that hold the means of neighbours; structures without a slope are dropped before all
+  const Trials trials = TryAll(input);
+  ModelComparison& comparison = *trials.comparison;
+  comparison.DropWithoutSlope();
+
+  // one that leaves its bounds on every sample is no contender
+  std::optional<Fit> first;
+  while (const auto chosen = Choose(input, comparison)) {
+    Fit fit = FitToAll(*chosen, trials.late, input);
+    if (fit.refusal || GivesFriction(fit)) return first && fit.refusal ? *std::move(first) : fit;
+    comparison.DropBeyondBounds(chosen->structure);
+    if (!first) first = std::move(fit);
+  }
+  if (first) return *std::move(first);
+  return NothingFits(comparison, {"", "", blocks, comparison.Reported()});
 }
 
 }  // namespace

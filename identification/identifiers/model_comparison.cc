@@ -332,6 +332,14 @@ void ModelComparison::DropDominated() {
   }
 }
 
+void ModelComparison::DropBeyondBounds(const Structure& structure) {
+  for (Trial& trial : trials_) {
+    if (trial.structure.Name() != structure.Name()) continue;
+    trial.dropped = kBeyondBoundsOnAll;
+    trial.gives_friction = trial.outdone = false;
+  }
+}
+
 const Structure* ModelComparison::OnlyOne() const {
   const auto stands = [](const Trial& trial) { return trial.dropped.empty(); };
   if (std::ranges::count_if(trials_, stands) != 1) return nullptr;

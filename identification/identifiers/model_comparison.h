@@ -117,6 +117,9 @@ class ModelComparison {
   /// preferred by BIC, or leaves half of the residual.
   void DropDominated();
 
+  /// Drops the trial of a structure that leaves its bounds on every sample, though not on the rows that are compared.
+  void DropBeyondBounds(const Structure& structure);
+
   /// The structure that is not dropped, where it is the only one, so that there is nothing to compare; else null.
   const Structure* OnlyOne() const;
 

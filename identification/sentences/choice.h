@@ -19,6 +19,8 @@ std::string ExplainShortLog(double duration);
 
 // why one that was tried is dropped
 inline constexpr const char* kGivesNoFriction = "gives no friction";
+inline constexpr const char* kBeyondBoundsOnAll =
+    "on every sample its friction would drive the joint";
 inline constexpr const char* kFailsWithoutBlock = "fails without one of the blocks";
 /// The sentence about a structure without a slope over speed, where the same structure with a slope was fitted. sloped: its name
 std::string ExplainMissingSlope(std::string_view sloped);

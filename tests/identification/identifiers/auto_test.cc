@@ -12,7 +12,9 @@
 
 #include "identification/forward/log_trajectory.h"
 #include "identification/identifiers/condense.h"
+#include "identification/identifiers/identifier_list.h"
 #include "identification/identifiers/model_comparison.h"
+#include "identification/identifiers/structures.h"
 #include "models/foundation/low_pass.h"
 #include "models/foundation/random_stream.h"
 #include "models/recording/measurements.h"
@@ -246,6 +248,25 @@ TEST(Auto, ComparesOnFewerRowsAndFitsEverySample) {
   for (const StructureTrial& one : estimate.choice->trials) {
     EXPECT_TRUE(one.name != estimate.choice->chosen || *one.rmse < 0.25);
   }
+}
+
+TEST(ModelComparison, ChoosesAnotherWhereTheBestLeavesItsBoundsOnEverySample) {
+  const Measurements m =
+      test::RecordFriction(test::TableOne(), 1, test::AlternatingSpeeds(3600, 2), 0.5, 2);
+  const IdentifierInput input{Prepare(m), FindIdentifier("auto").options, {}};
+  ModelComparison comparison(input, input.selection);
+  comparison.Add(ColdStructures(FittedGravity::none));
+  comparison.Add(WarmStructures(FittedGravity::none));
+  const Structure best = *comparison.Best();
+  EXPECT_TRUE(best.CanWarm());
+
+  comparison.DropBeyondBounds(best);
+  comparison.DropDominated();
+  EXPECT_NE(comparison.Best()->Name(), best.Name());
+  const std::vector<StructureTrial> trials = comparison.Reported();
+  EXPECT_NE(std::ranges::find(trials, best.Name(), &StructureTrial::name)->dropped, "");
+  EXPECT_EQ(std::ranges::find(trials, comparison.Best()->Name(), &StructureTrial::name)->dropped,
+            "");
 }
 
 LogView Steady() {
