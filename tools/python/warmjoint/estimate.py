@@ -22,7 +22,7 @@ from warmjoint.compensate import Compensator
 from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.friction import Friction, settled_energies
 from warmjoint.log import READING, Log, log_of
-from warmjoint.values import Array, flag, kind_of, number, numbers, path_of, shown
+from warmjoint.values import Array, flag, kind_of, number, numbers, path_of, shown, style_of
 
 if TYPE_CHECKING:
     import pandas
@@ -238,9 +238,9 @@ class Estimate:
             raise _core.BadInput(f"figure: is {kind_of(figure)}; give the name of one of figures()")
         source, name = self._source(), figure or ("fit" if ax is None else "friction_curve")
         family = source.figures()
-        with use(style):
+        with use(style_of(style)):
             if ax is not None and not hasattr(ax, "get_xlabel"):
-                raise ValueError(f"ax: is a value of the type {type(ax).__name__}; give axes of matplotlib")
+                raise _core.BadInput(f"ax: is a value of the type {type(ax).__name__}; give axes of matplotlib")
             if ax is not None and name in families.PANELS and source.view is not None:
                 families.PANELS[name](ax, source.view)
                 return ax.figure
@@ -250,7 +250,7 @@ class Estimate:
                 self._need_log(f"figure: '{name}'")
             raise _core.BadInput(f"figure: this estimate gives no {shown(name)}; it gives {', '.join(self.figures())}")
         if ax is not None:
-            raise ValueError(f"'{name}' has {len(sheet.axes)} panels, and axes take one: {' or '.join(families.PANELS)}; leave ax out")
+            raise _core.BadInput(f"'{name}' has {len(sheet.axes)} panels, and axes take one: {' or '.join(families.PANELS)}; leave ax out")
         return sheet
 
     def report(self, path: str | os.PathLike[str]) -> None:

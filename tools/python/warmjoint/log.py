@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from warmjoint import _core, other_formats
 from warmjoint.tables import Asked, Table, list_of, table_of, with_objects
-from warmjoint.values import Array, Column, column, columns_of, kind_of, number, path_of, text_of
+from warmjoint.values import Array, Column, column, columns_of, kind_of, number, path_of, style_of, text_of
 from warmjoint.values import named as texts_by_name
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ class Log:
         from warmjoint.figures.style import use
 
         facts, arrays = _core.shown_of_log(self._core)
-        with use(style):
+        with use(style_of(style)):
             return along_log.log(view.View(view.unpacked(facts["fit"], arrays)))
 
     def between(self, begin: float, end: float) -> Log:

@@ -20,7 +20,7 @@ from warmjoint.export import EngineFormat, Export, export_frictions
 from warmjoint.figures.view import unpacked
 from warmjoint.friction import Friction
 from warmjoint.tables import Asked, Table, numbers_of, tables_of, with_objects
-from warmjoint.values import Array, kind_of, named, number, numbers, path_of, shown, text, texts
+from warmjoint.values import Array, kind_of, named, number, numbers, path_of, shown, style_of, text, texts
 
 Numbers = float | Mapping[str, float]
 
@@ -156,8 +156,10 @@ class RobotEstimate(Mapping[str, Estimate]):
         from warmjoint.figures import robots
         from warmjoint.figures.style import use
 
+        if not isinstance(joint, str):
+            raise _core.BadInput(f"joint: is {kind_of(joint)}; give the name of one joint, or none for all")
         drawn = self._drawn_of(joint, "plot") if joint else None
-        with use(style):
+        with use(style_of(style)):
             return robots.joint(drawn) if drawn else robots.all_joints(self.data, list(self._drawn.values()))
 
     def report(self, path: str | os.PathLike[str]) -> None:

@@ -192,6 +192,17 @@ def of_kind(argument: str, given: Any, kind: type) -> None:
         raise _core.BadInput(f"{argument}: is {kind_of(given)}; give a {module}.{kind.__name__}")
 
 
+def style_of(style: Any) -> Any:
+    """A style of pictures, as figures.style has it."""
+    from warmjoint.figures import style as styles
+
+    try:
+        styles.style_of(style)
+    except ValueError as none:
+        raise _core.BadInput(str(none)) from None
+    return style
+
+
 def kind_of(value: Any) -> str:
     """What a value is, for messages."""
     return "None" if value is None else f"a value of the type {type(value).__name__}"
