@@ -6,12 +6,13 @@
 #include <memory>
 
 #include "identification/fit/identifier.h"
-#include "identification/holdout/hold_out.h"
 #include "identification/inference/inference.h"
 #include "identification/lack_of_fit/find_lack_of_fit.h"
 #include "identification/report/report_fit.h"
 
 namespace warmjoint {
+
+struct HeldOut;
 
 /// A fit, and what is known of it.
 struct Answer {

@@ -42,14 +42,17 @@ Selection Within(Selection first, const Selection& chosen) {
 
 }  // namespace
 
-std::optional<Eigen::Index> SplitOf(const Selection& selection, double fraction) {
+std::optional<SplitSelection> SplitOf(const Selection& selection, double fraction) {
   const auto& keep = selection.keep;
   // a share of the samples that take part, however long they last
   const auto first = std::llround((1 - fraction) * static_cast<double>(keep.count()));
   if (first < 2 || first >= keep.count()) return std::nullopt;
   Eigen::Index end = 0;
   for (Eigen::Index seen = 0; seen < first || !keep[end]; ++end) seen += keep[end];
-  return end;
+  SplitSelection split{end, selection, selection};
+  split.first.keep.tail(keep.size() - end) = false;
+  split.rest.keep.head(end) = false;
+  return split;
 }
 
 bool IsVaried(const Eigen::VectorXd& all, const Selection& test) {
@@ -61,9 +64,9 @@ bool IsVaried(const Eigen::VectorXd& all, const Selection& test) {
 std::optional<FirstPart> FitFirstPart(const Identifier& identifier, const IdentifierInput& given,
                                       double fraction, const Fit& all_data) {
   const IdentifierInput input = SelectSamples(identifier, given);
-  const auto end = SplitOf(input.selection, fraction);
-  if (!end) return std::nullopt;
-  const double split = input.measurements.time[*end];
+  const auto cut = SplitOf(input.selection, fraction);
+  if (!cut) return std::nullopt;
+  const double split = input.measurements.time[cut->at];
   // the samples before, in the view in which the identifier had the whole log
   const IdentifierInput before{input.log.Before(split), input.options, input.start};
   const IdentifierInput all = before.Through(input.view);

@@ -16,9 +16,15 @@
 
 namespace warmjoint {
 
-/// The first of the last samples, which are a share of those that take part, 0 < fraction < 1. Nothing where fewer than two
-/// come before it, or none is left.
-std::optional<Eigen::Index> SplitOf(const Selection& selection, double fraction);
+/// A selection cut in time: what it keeps before a sample, and from it on.
+struct SplitSelection {
+  Eigen::Index at = 0;
+  Selection first, rest;  // with the segments of the whole
+};
+
+/// Cut where the last samples are a share of those that take part, 0 < fraction < 1. Nothing where fewer than two come before
+/// them, or none is left.
+std::optional<SplitSelection> SplitOf(const Selection& selection, double fraction);
 
 /// Whether the joint moves in both directions, at speeds that differ by more than a tenth. velocity: [N]; test: keeps one sample
 /// at least

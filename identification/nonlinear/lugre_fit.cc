@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "identification/fit/fit_data.h"
@@ -206,8 +205,7 @@ void CompleteLevels(const LugreProblem& problem, FitPoint& point) {
   constexpr int kSteps = 2;
   const FallingPlaces& at = problem.places();
   // levels of the law, and the inertia where it is free
-  std::vector<Eigen::Index> linear(static_cast<size_t>(at.law().size));
-  std::iota(linear.begin(), linear.end(), at.law().begin);
+  std::vector<Eigen::Index> linear = at.law().Places();
   if (!problem.IsConstant(at.inertia())) linear.push_back(at.inertia());
   Eigen::VectorXd r(problem.used.count());
   RowMajor jacobian(r.size(), at.size());

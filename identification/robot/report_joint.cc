@@ -110,19 +110,15 @@ EstimatedParameter MeanRow(const JointFit& fit, const JointColumns& c, bool has_
 JointHoldOut HoldOutJoint(const JointFit& fit, const JointColumns& c, double share) {
   JointHoldOut found;
   if (share <= 0) return found;
-  const Selection all{c.samples.keep, {}};
-  const std::optional<Index> cut = SplitOf(all, share);
-  ModelSamples first = c.samples;
-  Selection rest = all;
-  if (cut) {
-    first.keep.tail(first.keep.size() - *cut) = false;
-    rest.keep.head(*cut) = false;
-  }
+  const auto cut = SplitOf({c.samples.keep, {}}, share);
   const double needed = kFewest + fit.effective_parameters;
-  if (!cut || static_cast<double>(first.keep.count()) < needed || rest.count() < kFewest) {
+  if (!cut || static_cast<double>(cut->first.count()) < needed || cut->rest.count() < kFewest) {
     found.held.why_none = "too few samples move";
     return found;
   }
+  const Selection& rest = cut->rest;
+  ModelSamples first = c.samples;
+  first.keep = cut->first.keep;
   const VectorXd residual = c.samples.torque - PredictedBy(fit, c, first);
   const VectorXd measured = Kept(c.samples.torque, rest);
   found.held.metrics = ComputeMetrics(measured, measured - Kept(residual, rest),
@@ -131,16 +127,15 @@ JointHoldOut HoldOutJoint(const JointFit& fit, const JointColumns& c, double sha
   Selection moving = rest;
   constexpr double at_rest = .02;  // of the top speed
   moving.keep = c.velocity.array().abs() > at_rest * c.top_speed;
-  moving.keep.head(*cut) = false;
+  moving.keep.head(cut->at) = false;
   found.moving = std::sqrt(Kept(residual, moving).array().square().mean());
 
   // gain and offset alone
   Eigen::MatrixXd columns(c.velocity.size(), 2);
   columns << c.rigid.force, VectorXd::Ones(c.velocity.size());
-  const Selection seen{first.keep, {}};
-  const Eigen::MatrixXd known = Kept(columns, seen);
-  const VectorXd x =
-      SolveScaled(known.transpose() * known, known.transpose() * Kept(c.samples.torque, seen));
+  const Eigen::MatrixXd known = Kept(columns, cut->first);
+  const VectorXd x = SolveScaled(known.transpose() * known,
+                                 known.transpose() * Kept(c.samples.torque, cut->first));
   found.held.without_friction =
       std::sqrt((measured - Kept(columns, rest) * x).array().square().mean());
   return found;

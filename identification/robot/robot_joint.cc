@@ -307,12 +307,11 @@ std::optional<double> FindOffset(const JointColumns& c, const JointQuestion& q,
 
 /// Squares on the last part of the log by a fit to the first part, which starts from the given fit.
 double HeldOutSquares(const JointFit& fit, const JointColumns& c) {
+  const auto cut = SplitOf({c.samples.keep, {}}, kUnseen);
+  if (!cut) return kInfinity;
   ModelSamples first = c.samples;
-  Selection rest{c.samples.keep, {}};
-  const Index cut = SplitOf(rest, kUnseen).value_or(0);
-  first.keep.tail(first.keep.size() - cut) = false;
-  rest.keep.head(cut) = false;
-  return Kept(Solve(fit.model, first, fit.solved.x).residual, rest).squaredNorm();
+  first.keep = cut->first.keep;
+  return Kept(Solve(fit.model, first, fit.solved.x).residual, cut->rest).squaredNorm();
 }
 
 /// Whether a further mechanism predicts unseen samples no worse than the fit without it. Why: a mechanism that a log shows by
